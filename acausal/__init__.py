@@ -1,0 +1,96 @@
+"""acausal: an acausal, equation-based modelling language in Python, compiled to JAX.
+
+Components declare equations and connectors; `compile` turns a model into a `System` that simulates, differentiates and
+calibrates. Importing this module does not import JAX.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from .errors import AcausalError as AcausalError
+from .errors import ConnectError as ConnectError
+from .errors import DeclarationError as DeclarationError
+from .errors import InitializationError as InitializationError
+from .errors import SimulationError as SimulationError
+from .errors import StructureError as StructureError
+from .errors import UnitError as UnitError
+from .errors import UnknownNameError as UnknownNameError
+from .language.blackbox import function as function
+from .language.blackbox import table as table
+from .language.component import Array as Array
+from .language.component import Component as Component
+from .language.component import Connector as Connector
+from .language.component import Equations as Equations
+from .language.component import inner as inner
+from .language.component import modify as modify
+from .language.component import outer as outer
+from .language.component import redeclare as redeclare
+from .language.connections import connect as connect
+from .language.declarations import Flow as Flow
+from .language.declarations import Input as Input
+from .language.declarations import Output as Output
+from .language.declarations import Parameter as Parameter
+from .language.declarations import Potential as Potential
+from .language.declarations import Variable as Variable
+from .language.declarations import start as start
+from .language.functions import PI as PI
+from .language.functions import abs as abs
+from .language.functions import acos as acos
+from .language.functions import asin as asin
+from .language.functions import asinh as asinh
+from .language.functions import atan as atan
+from .language.functions import atan2 as atan2
+from .language.functions import ceil as ceil
+from .language.functions import clip as clip
+from .language.functions import cos as cos
+from .language.functions import cosh as cosh
+from .language.functions import der as der
+from .language.functions import exp as exp
+from .language.functions import floor as floor
+from .language.functions import log as log
+from .language.functions import log10 as log10
+from .language.functions import max as max
+from .language.functions import min as min
+from .language.functions import mod as mod
+from .language.functions import sign as sign
+from .language.functions import sin as sin
+from .language.functions import sinh as sinh
+from .language.functions import sqrt as sqrt
+from .language.functions import tan as tan
+from .language.functions import tanh as tanh
+from .language.functions import time as time
+from .language.functions import where as where
+from .symbolic.expr import Expr as Expr
+
+if TYPE_CHECKING:
+    from .compiler import compile as compile
+    from .simulation.jit import jit as jit
+    from .simulation.rk4 import RK4 as RK4
+    from .simulation.rodas5p import Rodas5P as Rodas5P
+    from .simulation.solution import Solution as Solution
+    from .system import Report as Report
+    from .system import System as System
+
+_LAZY = {
+    "compile": "compiler",
+    "System": "system",
+    "Report": "system",
+    "Solution": "simulation.solution",
+    "Rodas5P": "simulation.rodas5p",
+    "RK4": "simulation.rk4",
+    "jit": "simulation.jit",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name in _LAZY:
+        value = getattr(importlib.import_module(f".{_LAZY[name]}", __name__), name)
+        globals()[name] = value
+        return value
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_LAZY})

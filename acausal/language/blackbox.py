@@ -1,0 +1,85 @@
+"""Opaque functions: user JAX code, and tables, as one node of an expression."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from ..symbolic.expr import Expr, Operand, as_expr, intern_node
+
+
+class BlackBox:
+    """A JAX function of scalars that returns a scalar; its derivatives come from `jax.jvp`.
+
+    Calling it on expressions gives an expression.
+    """
+
+    def __init__(self, function: Callable[..., Any], name: str, order: tuple[int, ...] = ()) -> None:
+        self.function = function
+        self.name = name
+        self.order = order
+        self._partials: dict[int, BlackBox] = {}
+
+    def __call__(self, *args: Operand) -> Expr:
+        return intern_node("call", tuple(as_expr(a) for a in args), self)
+
+    def partial(self, index: int, args: tuple[Expr, ...]) -> Expr:
+        """Partial derivative with respect to argument `index`, as an expression."""
+        if index not in self._partials:
+            self._partials[index] = BlackBox(_partial(self.function, index), f"∂{index}{self.name}", (*self.order, index))
+        return intern_node("call", args, self._partials[index])
+
+    def evaluate(self, *args: Any, xp: Any) -> Any:
+        """Value on numbers or arrays (elementwise)."""
+        import jax
+        import jax.numpy as jnp
+
+        arrays = jnp.broadcast_arrays(*(jnp.asarray(a, dtype=float) for a in args))
+        function = self.function
+        for _ in range(arrays[0].ndim):
+            function = jax.vmap(function)
+        value = function(*arrays)
+        if jnp.shape(value) != arrays[0].shape:
+            raise TypeError(f"function `{self.name}` must return one scalar, got shape {jnp.shape(value)}")
+        return value if xp is jnp else xp.asarray(value)
+
+
+def _partial(function: Callable[..., Any], index: int) -> Callable[..., Any]:
+    def derivative(*args: Any) -> Any:
+        import jax
+        import jax.numpy as jnp
+
+        tangents = [jnp.ones_like(a) if i == index else jnp.zeros_like(a) for i, a in enumerate(args)]
+        return jax.jvp(function, args, tuple(tangents))[1]
+
+    return derivative
+
+
+def function(f: Callable[..., Any], *, name: str | None = None) -> BlackBox:
+    """Use a JAX function in equations: ``friction = ac.function(lambda Re: 64 / Re)``, then ``friction(self.Re)``.
+
+    Args:
+        f: takes float scalars and returns one; written with `jax.numpy`, so that JAX can differentiate it.
+        name: shown in reports; the function's own name by default.
+    """
+    return BlackBox(f, name or getattr(f, "__name__", "function"))
+
+
+def table(x: Sequence[float], y: Sequence[float], *, name: str = "table") -> BlackBox:
+    """Piecewise linear interpolation of (x, y), constant outside; `x` must increase.
+
+    Raises:
+        ValueError: lengths differ, fewer than two points, or x does not increase.
+    """
+    if len(x) != len(y) or len(x) < 2:
+        raise ValueError(f"table needs as many y as x and at least two points, got {len(x)} and {len(y)}")
+    if any(not b > a for a, b in zip(x[:-1], x[1:], strict=True)):
+        raise ValueError("table: x must increase strictly")
+    xs, ys = tuple(map(float, x)), tuple(map(float, y))
+
+    def interpolate(value: Any) -> Any:
+        import jax.numpy as jnp
+
+        return jnp.interp(value, jnp.asarray(xs), jnp.asarray(ys))
+
+    return BlackBox(interpolate, name)

@@ -1,0 +1,204 @@
+"""Connection sets: potentials equal, flows sum to zero (Modelica Language Specification 3.6, section 9.2)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from ..errors import ConnectError
+from ..symbolic.equation import Origin
+from ..symbolic.expr import add, neg, var
+from .connections import Connect
+from .declarations import Kind
+from .flat_model import Family, Source
+from .template import Ints, Path, Template
+
+Edge = tuple[Ints, Ints, int]
+
+
+@dataclass(slots=True)
+class ConnectionGraph:
+    """Connector faces joined by connect statements.
+
+    A connector is known by its first variable; its inside face (seen from the owner of the component it belongs to) is
+    node ``2 * base``, its outside face (seen from the component's own equations) ``2 * base + 1``.
+    """
+
+    templates: dict[Any, Template] = field(default_factory=dict[Any, Template])
+    connectors: dict[Any, list[tuple[Ints, Path]]] = field(default_factory=dict[Any, list[tuple[Ints, Path]]])
+    edges: dict[Any, list[Edge]] = field(default_factory=dict[Any, list[Edge]])
+    signals: list[Edge] = field(default_factory=list[Edge])
+
+    def add_connectors(self, template: Template, base: Ints, path: Path) -> None:
+        """Note instances of a connector class (only outermost connectors: nested ones belong to their owner)."""
+        key = _interface(template)
+        self.templates.setdefault(key, template)
+        self.connectors.setdefault(key, []).append((base, path))
+
+    def add(self, item: Connect, ends: list[tuple[Ints, Template | None, bool]], source: int) -> None:
+        """One connect statement: `ends` are (bases (instances, *slice), template, inside)."""
+        first = ends[0]
+        for end in ends[1:]:
+            a, b = _fit(first[0], end[0], item)
+            if first[1] is None or end[1] is None:
+                self.signals.append((a, b, source))
+                continue
+            key = _interface(first[1])
+            self.templates.setdefault(key, first[1])
+            self.edges.setdefault(key, []).append((2 * a + (not first[2]), 2 * b + (not end[2]), source))
+
+
+def _interface(template: Template) -> Any:
+    """Connectors with the same quantities in the same order can be joined."""
+    return tuple((tail, kind) for tail, kind, _ in quantities(template))
+
+
+def quantities(template: Template) -> list[tuple[Path, Kind, int]]:
+    """Path, kind and offset of every variable of a connector, those of nested connectors included."""
+    if "quantities" not in template.cache:
+        found: list[tuple[Path, Kind, int]] = []
+        for path, offset in template.leaf_names(False):
+            declaration = template.resolve(path).declaration
+            assert declaration is not None
+            found.append((path, declaration.kind, offset))
+        template.cache["quantities"] = found
+    return template.cache["quantities"]
+
+
+def _fit(a: Ints, b: Ints, item: Connect) -> tuple[Ints, Ints]:
+    """Ends of a connection, element by element."""
+    m = len(a)
+    a, b = a.reshape(m, -1), b.reshape(m, -1)
+    if a.shape[1] != b.shape[1] and 1 not in (a.shape[1], b.shape[1]):
+        from .component import path_text
+
+        names = ", ".join(path_text(p) for p in item.paths)
+        raise ConnectError(f"connect({names}): slices of {a.shape[1]} and {b.shape[1]} elements do not fit")
+    a, b = np.broadcast_arrays(a, b)
+    return a.ravel(), b.ravel()
+
+
+@dataclass(slots=True)
+class Joined:
+    """Equations of all connections: aliases, zero flows, sums."""
+
+    a: Ints
+    b: Ints
+    sign: Ints
+    source: Ints
+    ordinal: Ints
+    zero: Ints
+    zero_source: Ints
+    zero_ordinal: Ints
+    sums: list[Family]
+
+
+@dataclass(slots=True)
+class _Collector:
+    alias: list[tuple[Ints, Ints, int, Ints, Ints]] = field(default_factory=list[Any])
+    zero: list[tuple[Ints, Ints, Ints]] = field(default_factory=list[Any])
+    sums: list[Family] = field(default_factory=list[Family])
+
+    def joined(self) -> Joined:
+        def cat(arrays: list[Any]) -> Ints:
+            return np.concatenate([np.zeros(0, np.int64), *arrays])
+
+        return Joined(
+            cat([a for a, *_ in self.alias]), cat([b for _, b, *_ in self.alias]),
+            cat([np.full(len(a), s) for a, _, s, *_ in self.alias]), cat([s for *_, s, _ in self.alias]),
+            cat([o for *_, o in self.alias]), cat([z for z, *_ in self.zero]), cat([s for _, s, _ in self.zero]),
+            cat([o for *_, o in self.zero]), self.sums,
+        )  # fmt: skip
+
+
+def solve_connections(graph: ConnectionGraph, root: Template, sources: list[Source]) -> Joined:
+    """Equations of all connection sets of a model."""
+    out = _Collector()
+    for a, b, source in graph.signals:
+        out.alias.append((a, b, 1, np.full(len(a), source), np.arange(len(a))))
+    for key in graph.connectors | graph.edges:
+        _solve_interface(graph, key, root, sources, out)
+    return out.joined()
+
+
+def _solve_interface(graph: ConnectionGraph, key: Any, root: Template, sources: list[Source], out: _Collector) -> None:
+    template = graph.templates[key]
+    edges = graph.edges.get(key, [])
+    a = np.concatenate([np.zeros(0, np.int64), *(e[0] for e in edges)])
+    b = np.concatenate([np.zeros(0, np.int64), *(e[1] for e in edges)])
+    edge_source = np.concatenate([np.zeros(0, np.int64), *(np.full(len(e[0]), e[2]) for e in edges)])
+    edge_ordinal = np.concatenate([np.zeros(0, np.int64), *(np.arange(len(e[0])) for e in edges)])
+    nodes, inverse = np.unique(np.concatenate([a, b]), return_inverse=True)
+    ia, ib = inverse[: len(a)], inverse[len(a) :]
+    n = len(nodes)
+    _, label = connected_components(coo_matrix((np.ones(len(a), np.int8), (ia, ib)), shape=(n, n)), directed=False)
+    order = np.lexsort((nodes, label))
+    nodes, label = nodes[order], label[order]
+    # an edge of each set, to name where the set was written
+    by_set = np.zeros(label.max() + 1 if n else 0, np.int64)
+    position = np.empty(n, np.int64)
+    position[order] = np.arange(n)
+    by_set[label[position[ia[::-1]]]] = np.arange(len(a))[::-1]
+    bounds = np.flatnonzero(np.r_[True, label[1:] != label[:-1], True]) if n else np.zeros(1, np.int64)
+    first, size = bounds[:-1], np.diff(bounds)
+    set_source, set_ordinal = edge_source[by_set], edge_ordinal[by_set]
+    for _, kind, offset in quantities(template):
+        if kind == Kind.FLOW:
+            _flows(nodes, offset, first, size, set_source, set_ordinal, out)
+        else:
+            _potentials(nodes, label, first, offset, set_source, set_ordinal, out)
+    _unconnected(graph.connectors.get(key, []), template, nodes, sources, out)
+
+
+def _potentials(
+    nodes: Ints, label: Ints, first: Ints, offset: int, source: Ints, ordinal: Ints, out: _Collector
+) -> None:
+    head = (nodes[first] >> 1)[label]
+    here = nodes >> 1
+    other = here != head
+    chosen = label[other]
+    out.alias.append((here[other] + offset, head[other] + offset, 1, source[chosen], ordinal[chosen]))
+
+
+def _flows(
+    nodes: Ints, offset: int, first: Ints, size: Ints, source: Ints, ordinal: Ints, out: _Collector
+) -> None:
+    """Inside faces count positive, outside faces negative."""
+    ids, sign = (nodes >> 1) + offset, 1 - 2 * (nodes & 1)
+    for s in np.unique(size):
+        sets = np.flatnonzero(size == s)
+        columns = first[sets][:, None] + np.arange(s)
+        rows, signs = ids[columns], sign[columns]
+        if s == 2:
+            for product in (1, -1):
+                pick = signs[:, 0] * signs[:, 1] == product
+                chosen = sets[pick]
+                out.alias.append((rows[pick, 0], rows[pick, 1], -product, source[chosen], ordinal[chosen]))
+            continue
+        patterns, which = np.unique(signs, axis=0, return_inverse=True)
+        for k, pattern in enumerate(patterns):
+            pick = which.ravel() == k
+            residual = add(*(var(j) if positive > 0 else neg(var(j)) for j, positive in enumerate(pattern)))
+            chosen = sets[pick]
+            none = np.zeros((len(chosen), 0), np.int64)
+            out.sums.append(Family(residual, rows[pick], none, source[chosen], ordinal[chosen]))
+
+
+def _unconnected(
+    instances: list[tuple[Ints, Path]], template: Template, nodes: Ints, sources: list[Source], out: _Collector
+) -> None:
+    """Flows of connectors that nothing is connected to are zero."""
+    offsets = [offset for _, kind, offset in quantities(template) if kind == Kind.FLOW]
+    for base, path in instances:
+        loose = np.flatnonzero(~np.isin(2 * base, nodes))
+        if not len(loose) or not offsets:
+            continue
+        cls = template.cls
+        sources.append(Source(Origin(cls.__qualname__, *cls._source, "unconnected"), path, 1))
+        for offset in offsets:
+            source = np.full(len(loose), len(sources) - 1)
+            out.zero.append((base[loose] + offset, source, loose))

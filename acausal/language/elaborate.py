@@ -1,0 +1,373 @@
+"""From a component instance to its template and numbers: modifications applied, partial classes rejected."""
+
+from __future__ import annotations
+
+import types
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..errors import DeclarationError
+from ..symbolic.equation import Equation, Origin
+from ..symbolic.expr import Expr, as_expr, symbol
+from ..symbolic.traverse import leaves, substitute
+from .component import Array, Component, Connector, Shared, effective_child, merged, path_text, view
+from .connections import Connect
+from .declarations import STATE_SELECT, Declaration, Kind, Start
+from .template import Attributes, Binding, ChildSlot, Path, Template, TemplateEquation
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bound:
+    """A modification that is an expression of the parameters of the class `level` frames down the stack."""
+
+    level: int
+    expression: Expr
+
+
+@dataclass(slots=True)
+class Frame:
+    """A component being elaborated."""
+
+    cls: type[Component]
+    step: Path
+    bindings: list[Binding] = field(default_factory=list[Binding])
+
+
+class Elaborator:
+    """Elaborates a model; templates are shared between equal structures."""
+
+    def __init__(self) -> None:
+        self.templates: dict[Any, Template] = {}
+        self.plain: dict[type[Component], tuple[Template, Attributes]] = {}
+        self.stack: list[Frame] = []
+
+    def root(self, component: Component) -> tuple[Template, Attributes]:
+        """Template and numbers of a whole model."""
+        _reject_unresolved(component, ())
+        return self.elaborate(component, ())
+
+    def elaborate(self, component: Component, step: Path) -> tuple[Template, Attributes]:
+        """Template and numbers of one component, `step` below the component on top of the stack."""
+        cls = type(component)
+        mods = component.__dict__["_mods"]
+        if not cls._children and cls in self.plain and _numeric(mods):
+            template, attributes = self.plain[cls]
+            if not mods:
+                return template, attributes
+            attributes = attributes.copy()
+            for name, value in mods.items():
+                self._set(cls, template, attributes, name, value)
+            return template, attributes
+        if cls._partial and (cls._declarations or not issubclass(cls, Connector)):
+            raise DeclarationError(
+                f"`{self._where(step) or cls.__name__}` is an instance of the partial class `{cls.__name__}` "
+                f"({cls._source[0]}:{cls._source[1]}): replace it by one of its subclasses"
+            )
+        self.stack.append(Frame(cls, step))
+        try:
+            template, attributes = self._elaborate(component)
+        finally:
+            self.stack.pop()
+        if not cls._children and not mods and not template.bindings:
+            self.plain[cls] = (template, attributes)
+        return template, attributes
+
+    def _elaborate(self, component: Component) -> tuple[Template, Attributes]:
+        cls = type(component)
+        mods = component.__dict__["_mods"]
+        structural = {name: mods.get(name, s.default) for name, s in cls._structural.items()}
+        template = Template(cls, structural)
+        template.layout_own()
+        parts = [self._own(component, template)]
+        for name in cls._children:
+            slot, attributes = self._child(component, name)
+            template.add_child(slot)
+            parts.extend(attributes)
+        template.bindings = self.stack[-1].bindings
+        key = _key(template)
+        known = self.templates.get(key)
+        if known is None:
+            self.templates[key] = known = template
+            self._behaviour(component, template)
+        return known, Attributes.join(parts)
+
+    def _own(self, component: Component, template: Template) -> Attributes:
+        cls = type(component)
+        mods = component.__dict__["_mods"]
+        n_par = sum(1 for is_par, _ in template.own.values() if is_par)
+        n_var = len(template.own) - n_par
+        nan = float("nan")
+        out = Attributes(
+            np.full(n_par, nan), np.full(n_var, nan), np.full(n_var, -1, np.int8), np.full(n_var, nan),
+            np.full(n_var, STATE_SELECT.index("default"), np.int8),
+        )  # fmt: skip
+        for name, declaration in cls._declarations.items():
+            if declaration.kind == Kind.PARAMETER:
+                value = mods.get(name, declaration.default)
+                if value is not None:
+                    self._set(cls, template, out, name, value)
+                continue
+            given = Start(declaration.start, declaration.fixed, declaration.nominal, declaration.state_select)
+            self._set(cls, template, out, name, given)
+            if name in mods:
+                self._set(cls, template, out, name, mods[name])
+        return out
+
+    def _set(self, cls: type[Component], template: Template, out: Attributes, name: str, value: Any) -> None:
+        """Enter one modification."""
+        is_par, k = template.own[name]
+        if is_par:
+            if isinstance(value, (Bound, Expr, Declaration)):
+                self._bind(cls, name, value, is_start=False)
+            elif isinstance(value, (list, tuple)):
+                raise DeclarationError(
+                    f"`{self._where((name,))}` is one parameter but was given {len(value)} values; a sequence has its place "
+                    "in Array(component, n, name=[...])"
+                )
+            else:
+                out.par[k] = value
+            return
+        if not isinstance(value, Start):
+            value = Start(value)
+        if value.fixed is not None:
+            out.fixed[k] = value.fixed
+        if value.nominal is not None:
+            out.nominal[k] = value.nominal
+        if value.state_select is not None:
+            out.select[k] = STATE_SELECT.index(value.state_select)
+        if isinstance(value.value, (Bound, Expr, Declaration)):
+            self._drop(name)
+            self._bind(cls, name, value.value, is_start=True)
+            out.start[k] = np.nan
+        elif value.value is not None:
+            self._drop(name)
+            out.start[k] = value.value
+
+    def _drop(self, name: str) -> None:
+        """Forget an earlier start binding of an own variable (a modification overrides the declaration)."""
+        if self.stack:
+            frame = self.stack[-1]
+            frame.bindings[:] = [b for b in frame.bindings if not (b.is_start and b.path == (name,))]
+
+    def _bind(self, cls: type[Component], name: str, value: Any, *, is_start: bool) -> None:
+        if isinstance(value, Bound):
+            level, expression = value.level, value.expression
+        else:
+            level, expression = len(self.stack) - 1, in_scope(as_expr(value), cls)
+        frame = self.stack[level]
+        path = tuple(part for f in self.stack[level + 1 :] for part in f.step) + (name,)
+        kind = "start" if is_start else "parameter"
+        origin = Origin(frame.cls.__qualname__, *frame.cls._source, kind)
+        frame.bindings.append(Binding(path, expression, is_start, origin))
+
+    def _child(self, component: Component, name: str) -> tuple[ChildSlot, list[Attributes]]:
+        """Elaborate one child; the expressions of its declaration are bound to this class's parameters."""
+        cls = type(component)
+        descriptor = cls._children[name]
+        given = component.__dict__["_mods"].get(name)
+        default = resolve_scope(descriptor.default, cls, len(self.stack) - 1)
+        child = default if given is None else merged(default, given)
+        role = ""
+        if isinstance(child, Shared):
+            role, child = child.role, child.component
+        if role == "outer":
+            template, _ = Elaborator().elaborate(child, (name,)) if not type(child)._partial else _partial_outer(child)
+            return ChildSlot(name, [template], None, role), []
+        if isinstance(child, Array):
+            return self._array(component, name, child)
+        if isinstance(child, list):
+            return self._list(name, child, role)
+        template, attributes = self.elaborate(child, (name,))
+        return ChildSlot(name, [template], None, role), [attributes]
+
+    def _array(self, component: Component, name: str, child: Array[Any]) -> tuple[ChildSlot, list[Attributes]]:
+        n = len(child) if child._length is not None else len(effective_child(component, name))
+        varying = {k: v for k, v in child._values.items()}
+        element = child._element
+        if varying or _has_sequence(element):
+            return self._list(name, [_element_mods(element, varying, i, n, name) for i in range(n)], "")
+        template, attributes = self.elaborate(element, (name, range(n)))
+        return ChildSlot(name, [template], n, ""), [attributes.tile(n)]
+
+    def _list(self, name: str, items: list[Component], role: str) -> tuple[ChildSlot, list[Attributes]]:
+        nodes = [self.elaborate(item, (name, i)) for i, item in enumerate(items)]
+        templates = [t for t, _ in nodes]
+        uniform = all(t is templates[0] for t in templates)
+        slot = ChildSlot(name, templates[:1] if uniform else templates, len(items), role)
+        return slot, [Attributes.join([a for _, a in nodes])] if nodes else []
+
+    def _behaviour(self, component: Component, template: Template) -> None:
+        """Run `equations` and `initial_equations` of the class once."""
+        scope = view(component, ())
+        for item, origin in _run(scope, "equations"):
+            if isinstance(item, Equation):
+                template.equations.append(TemplateEquation(item.lhs, item.rhs, origin))
+            else:
+                template.connections.append((item, origin))
+        for item, origin in _run(scope, "initial_equations"):
+            if not isinstance(item, Equation):
+                raise DeclarationError(f"initial_equations() of `{type(component).__name__}` yields a connect(): {origin}")
+            template.initial.append(TemplateEquation(item.lhs, item.rhs, origin))
+
+    def _where(self, step: Path) -> str:
+        return path_text(tuple(part for f in self.stack[1:] for part in f.step) + step)
+
+
+def _partial_outer(child: Component) -> tuple[Template, None]:
+    template = Template(type(child), {})
+    template.layout_own()
+    return template, None
+
+
+def _numeric(mods: dict[str, Any]) -> bool:
+    return all(
+        isinstance(v, (int, float)) or (isinstance(v, Start) and not isinstance(v.value, (Bound, Expr, Declaration)))
+        for v in mods.values()
+    )
+
+
+def _key(template: Template) -> Any:
+    children = tuple(
+        (slot.name, slot.role, slot.count, tuple(map(id, slot.templates))) for slot in template.children.values()
+    )
+    bindings = tuple((b.path, id(b.expression), b.is_start) for b in template.bindings)
+    return template.cls, tuple(sorted(template.structural.items())), children, bindings
+
+
+def in_scope(expression: Expr, cls: type[Component]) -> Expr:
+    """Declarations of the class body become symbols of the class."""
+    mapping: dict[Expr, Expr] = {}
+    for leaf in leaves(expression):
+        if leaf.op == "declared":
+            declaration: Declaration = leaf.value
+            if declaration.name not in cls._declarations:
+                raise DeclarationError(
+                    f"a modification in the body of `{cls.__name__}` refers to `{declaration.name or '?'}`, which is not a "
+                    f"field of that class ({cls._source[0]}:{cls._source[1]})"
+                )
+            mapping[leaf] = symbol((declaration.name,))
+        elif leaf.op == "symbol":
+            raise DeclarationError(
+                f"`{leaf}` is used in a modification in `{cls.__name__}`: refer to the parameter as it is declared in the "
+                "class body (without `self.`), or write an equation"
+            )
+    return substitute(expression, mapping)
+
+
+def resolve_scope(child: Any, cls: type[Component], level: int) -> Any:
+    """A declaration's default with its expressions bound to the class it is written in."""
+    if isinstance(child, Shared):
+        return Shared(resolve_scope(child.component, cls, level), child.role)
+    if isinstance(child, Array):
+        copy = Array(resolve_scope(child._element, cls, level), child._count, **child._values)
+        copy._length = child._length
+        return copy
+    if isinstance(child, (list, tuple)):
+        return [resolve_scope(c, cls, level) for c in child]
+    if isinstance(child, Component):
+        mods = child.__dict__["_mods"]
+        if not mods:
+            return child
+        copy = object.__new__(type(child))
+        copy.__dict__["_path"] = ()
+        copy.__dict__["_mods"] = {k: resolve_scope(v, cls, level) for k, v in mods.items()}
+        return copy
+    if isinstance(child, (Expr, Declaration)):
+        return Bound(level, in_scope(as_expr(child), cls))
+    if isinstance(child, Start) and isinstance(child.value, (Expr, Declaration)):
+        bound: Any = Bound(level, in_scope(as_expr(child.value), cls))
+        return Start(bound, child.fixed, child.nominal, child.state_select)
+    return child
+
+
+def _reject_unresolved(component: Any, path: Path) -> None:
+    """Expressions make sense in a class body only."""
+    if isinstance(component, Array):
+        _reject_unresolved(component._element, path)
+    if not isinstance(component, Component):
+        return
+    for name, value in component.__dict__["_mods"].items():
+        inner = value.value if isinstance(value, Start) else value
+        if isinstance(inner, (Expr, Declaration)):
+            raise DeclarationError(
+                f"`{path_text((*path, name))}` of the model was given the expression `{as_expr(inner)}`: outside a class body "
+                "give numbers; an expression of other parameters belongs into the class body that declares them"
+            )
+        _reject_unresolved(value, (*path, name))
+
+
+def _has_sequence(component: Any) -> bool:
+    if not isinstance(component, Component):
+        return False
+    for value in component.__dict__["_mods"].values():
+        inner = value.value if isinstance(value, Start) else value
+        if isinstance(inner, list) and not any(isinstance(v, Component) for v in inner):
+            return True
+        if _has_sequence(value):
+            return True
+    return False
+
+
+def _element_mods(element: Component, values: dict[str, Any], i: int, n: int, name: str) -> Component:
+    """Element `i` of an array whose values vary."""
+    from .component import with_modifications
+
+    picked = {k: _pick(v, i, n, f"{name}.{k}") for k, v in {**element.__dict__["_mods"], **values}.items()}
+    bound = {k: v for k, v in picked.items() if isinstance(v, Bound) or (isinstance(v, Start) and isinstance(v.value, Bound))}
+    copy = with_modifications(element, {k: v for k, v in picked.items() if k not in bound})
+    copy.__dict__["_mods"].update(bound)
+    return copy
+
+
+def _pick(value: Any, i: int, n: int, text: str) -> Any:
+    if isinstance(value, Component):
+        return _element_mods(value, {}, i, n, text) if _has_sequence(value) else value
+    if isinstance(value, Start):
+        return Start(_pick(value.value, i, n, text), value.fixed, value.nominal, value.state_select)
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)) and not any(isinstance(v, Component) for v in value):
+        if len(value) != n:
+            raise DeclarationError(f"component array `{text}` has {n} elements but was given {len(value)} values")
+        return value[i]
+    return value
+
+
+def _run(scope: Component, method: str) -> Any:
+    """Items yielded by `equations` (or `initial_equations`), each with the source line that yielded it."""
+    generator = getattr(scope, method)()
+    cls = type(scope)
+    if not isinstance(generator, types.GeneratorType):
+        raise DeclarationError(f"`{cls.__name__}.{method}` must be a generator: `yield` each equation, do not return a list")
+    for item in generator:
+        file, line, owner = _position(generator)
+        origin = Origin(owner, file, line, "equation" if method == "equations" else "initial")
+        if not isinstance(item, (Equation, Connect)):
+            hint = (
+                "one side of `==` must be a variable or expression of the component"
+                if isinstance(item, bool)
+                else "yield `lhs == rhs` or `connect(a, b)`; delegate to a base class with `yield from super().equations()`"
+            )
+            raise DeclarationError(f"`{owner}.{method}` yields {item!r} at {file}:{line}: {hint}")
+        yield item, origin
+    ran = scope.__dict__.get(f"_ran_{method}", [])
+    for base in cls.__mro__:
+        if method in base.__dict__ and base not in (Component, Connector, object) and base not in ran:
+            overriding = next(c for c in cls.__mro__ if method in c.__dict__)
+            raise DeclarationError(
+                f"`{overriding.__name__}.{method}` never calls `super().{method}()`, so the equations of "
+                f"`{base.__name__}` are lost: begin it with `yield from super().{method}()` "
+                f"({overriding._source[0]}:{overriding._source[1]})"
+            )
+
+
+def _position(generator: types.GeneratorType[Any, Any, Any]) -> tuple[str, int, str]:
+    """File, line and class of the innermost suspended generator."""
+    inner = generator
+    while isinstance(inner.gi_yieldfrom, types.GeneratorType):
+        inner = inner.gi_yieldfrom
+    frame, code = inner.gi_frame, inner.gi_code
+    owner = code.co_qualname.rsplit(".", 1)[0].rsplit("<locals>.", 1)[-1]
+    return code.co_filename, frame.f_lineno if frame is not None else code.co_firstlineno, owner

@@ -1,0 +1,298 @@
+"""The flat model: integer-numbered variables and parameters, equations in families.
+
+A *family* is one equation template together with the index rows of its instances; ten thousand resistors are one family
+of ten thousand rows. Every later stage works on families.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import UnknownNameError, nearest
+from ..symbolic.equation import Origin
+from ..symbolic.expr import Expr, par, var
+from ..symbolic.printing import path_text, to_text
+from .declarations import Declaration
+from .template import Ints, Path, Template
+
+Bools = NDArray[np.bool_]
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Source:
+    """Where rows of a family come from: an origin in user code, and the instances of the component it stands in.
+
+    Attributes:
+        path: pattern of the component's path; a range stands for the elements of an array.
+        per_instance: rows per component instance (more than one for an equation over a slice).
+    """
+
+    origin: Origin
+    path: Path
+    per_instance: int
+
+    def component(self, ordinal: int) -> str:
+        """Path of the component instance that row `ordinal` belongs to."""
+        k = ordinal // self.per_instance
+        parts: list[Any] = []
+        for part in reversed(self.path):
+            if isinstance(part, range):
+                parts.append(part[k % len(part)])
+                k //= len(part)
+            else:
+                parts.append(part)
+        return path_text(tuple(reversed(parts)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Family:
+    """Equations ``residual == 0`` that differ only in the variables and parameters they refer to.
+
+    Attributes:
+        residual: over ``var(k)`` and ``par(k)``, which stand for column k of `var_rows` and `par_rows`.
+        var_rows: int64 (n, number of variable slots), indices of variables (derivatives are variables of their own).
+        par_rows: int64 (n, number of parameter slots).
+        source: int64 (n,), index into `FlatModel.sources`.
+        ordinal: int64 (n,), row number within the source.
+    """
+
+    residual: Expr
+    var_rows: Ints
+    par_rows: Ints
+    source: Ints
+    ordinal: Ints
+
+    @property
+    def size(self) -> int:
+        """Number of equations."""
+        return len(self.source)
+
+    def select(self, rows: Any) -> Family:
+        """The family of some of the rows."""
+        return Family(self.residual, self.var_rows[rows], self.par_rows[rows], self.source[rows], self.ordinal[rows])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Assignment:
+    """Parameters or start values given by expressions of parameters: ``target[i] = expression(par_rows[i])``."""
+
+    targets: Ints
+    expression: Expr
+    par_rows: Ints
+    origin: Origin
+
+
+@dataclass(eq=False)
+class FlatModel:
+    """A model with its hierarchy dissolved.
+
+    Attributes:
+        root: template of the model, for names.
+        n_var: number of declared scalar variables; derivatives follow from this number on.
+        n_par: number of scalar parameters.
+        derivative_of: int64, for every variable the index of its derivative or -1.
+        parent: int64, for every variable the index of the variable it is the derivative of or -1.
+        alias_a, alias_b, alias_sign: connection equations ``a = sign * b``; `alias_source`, `alias_ordinal` say where from.
+        zero: flows of unconnected connectors.
+        inputs: variables that are inputs of the whole model.
+    """
+
+    root: Template
+    model_name: str
+    n_var: int
+    n_par: int
+    derivative_of: Ints
+    parent: Ints
+    families: list[Family]
+    initial: list[Family]
+    alias_a: Ints
+    alias_b: Ints
+    alias_sign: Ints
+    alias_source: Ints
+    alias_ordinal: Ints
+    zero: Ints
+    zero_source: Ints
+    zero_ordinal: Ints
+    par_value: Floats
+    par_assignments: list[Assignment]
+    start: Floats
+    fixed: NDArray[np.int8]
+    nominal: Floats
+    select: NDArray[np.int8]
+    start_assignments: list[Assignment]
+    inputs: Ints
+    sources: list[Source] = field(default_factory=list[Source])
+
+    @property
+    def n_total(self) -> int:
+        """Variables and derivatives."""
+        return len(self.derivative_of)
+
+    @cached_property
+    def names(self) -> Names:
+        """Names of variables and parameters."""
+        return Names(self.root)
+
+    def name(self, index: int) -> str:
+        """Name of a variable or derivative: ``x``, ``der(x)``, ``der(x, 2)``."""
+        order = 0
+        while index >= self.n_var:
+            index = int(self.parent[index])
+            order += 1
+        base = self.names.variable(index)
+        return base if order == 0 else f"der({base})" if order == 1 else f"der({base}, {order})"
+
+    def equation_text(self, family: Family, row: int, form: Expr | None = None) -> str:
+        """One equation with the model's names, as ``a = b``."""
+        variables, parameters = family.var_rows[row], family.par_rows[row]
+
+        def leaf(node: Expr) -> str:
+            if node.op == "var":
+                return self.name(int(variables[node.value]))
+            if node.op == "par":
+                return self.parameter_name(int(parameters[node.value]))
+            return "time"
+
+        if form is not None:
+            return to_text(form, leaf)
+        lhs, rhs = _sides(family.residual)
+        return f"{to_text(lhs, leaf)} = {to_text(rhs, leaf)}"
+
+    def parameter_name(self, index: int) -> str:
+        """Name of a parameter; an input of the whole model goes by the input's name."""
+        if index < self.n_par:
+            return self.names.parameter(index)
+        return self.names.variable(int(self.inputs[index - self.n_par]))
+
+    def equation_place(self, family: Family, row: int) -> tuple[str, str]:
+        """Component path and source position of an equation."""
+        source = self.sources[int(family.source[row])]
+        return source.component(int(family.ordinal[row])), str(source.origin)
+
+
+def _sides(residual: Expr) -> tuple[Expr, Expr]:
+    """Positive terms on the left, negative ones on the right."""
+    from ..symbolic.expr import add, neg
+
+    terms = residual.args if residual.op == "add" else (residual,)
+    negative = [t.op == "neg" or (t.op == "const" and t.value < 0) for t in terms]
+    lhs = add(*(t for t, n in zip(terms, negative, strict=True) if not n))
+    rhs = add(*(neg(t) for t, n in zip(terms, negative, strict=True) if n))
+    return (rhs, lhs) if lhs.op == "const" and rhs.op != "const" else (lhs, rhs)
+
+
+class Names:
+    """Names and declarations by index, and indices by name, without a table of all names."""
+
+    def __init__(self, root: Template) -> None:
+        self.root = root
+
+    def variable(self, index: int) -> str:
+        """Dotted name of variable `index`."""
+        return path_text(self._path(index, False)[0])
+
+    def parameter(self, index: int) -> str:
+        """Dotted name of parameter `index`."""
+        return path_text(self._path(index, True)[0])
+
+    def declaration(self, index: int, *, parameter: bool = False) -> Declaration:
+        """Declaration of variable or parameter `index`."""
+        return self._path(index, parameter)[1]
+
+    def _path(self, index: int, is_par: bool) -> tuple[Path, Declaration]:
+        template, path = self.root, ()
+        while True:
+            if index < sum(1 for p, _ in template.own.values() if p == is_par):
+                name = next(n for n, (p, o) in template.own.items() if p == is_par and o == index)
+                return (*path, name), template.cls._declarations[name]
+            template, path, index = self._descend(template, path, index, is_par)
+
+    @staticmethod
+    def _descend(template: Template, path: Path, index: int, is_par: bool) -> tuple[Template, Path, int]:
+        for slot in template.children.values():
+            if slot.role == "outer":
+                continue
+            for prefix, child, v0, p0, n in slot.parts():
+                base, size = (p0, child.par_count) if is_par else (v0, child.var_count)
+                if base <= index < base + n * size:
+                    k, rest = divmod(index - base, size)
+                    step = (prefix[0], k) if slot.count is not None and slot.uniform else prefix
+                    return child, (*path, *step), rest
+        raise IndexError(index)
+
+    @cached_property
+    def all_variables(self) -> list[str]:
+        """Names of all variables in order."""
+        return self._all(False)
+
+    @cached_property
+    def all_parameters(self) -> list[str]:
+        """Names of all parameters in order."""
+        return self._all(True)
+
+    def _all(self, is_par: bool) -> list[str]:
+        pairs = sorted(((offset, path) for path, offset in self.root.leaf_names(is_par)), key=lambda pair: pair[0])
+        return [path_text(path) for _, path in pairs]
+
+    def find(self, name: str, *, parameter: bool | None = None) -> tuple[Ints, bool]:
+        """Indices that a name stands for, and whether they are parameters; a component array without index means all.
+
+        Raises:
+            UnknownNameError: with the nearest names.
+        """
+        try:
+            reference = self.root.resolve(parse_path(name))
+        except Exception:
+            reference = None
+        if reference is None or reference.declaration is None:
+            known = self.all_parameters if parameter else self.all_variables
+            if parameter is None:
+                known = [*self.all_variables, *self.all_parameters]
+            shown = known if len(known) < 20_000 else known[:20_000]
+            what = "parameter" if parameter else "variable"
+            raise UnknownNameError(f"the model has no {what} `{name}`.{nearest(name, shown)}")
+        is_par = reference.declaration.kind.name == "PARAMETER"
+        if parameter is not None and is_par != parameter:
+            what, other = ("parameter", "variable") if parameter else ("variable", "parameter")
+            raise UnknownNameError(f"`{name}` is a {other}, not a {what}")
+        return (reference.par_offsets if is_par else reference.offsets), is_par
+
+
+def parse_path(name: str) -> Path:
+    """``cells[0].p.v`` as a path; ``cells[1:3]`` as a range; ``cells[:]`` and ``cells`` leave the index open."""
+    parts: list[Any] = []
+    for piece in name.split("."):
+        head, *indices = piece.split("[")
+        parts.append(head)
+        for text in indices:
+            text = text.rstrip("]")
+            if ":" in text:
+                bounds = [int(b) if b else None for b in text.split(":")]
+                if bounds == [None, None]:
+                    continue
+                parts.append(range(bounds[0] or 0, bounds[1] or 0))
+            else:
+                parts.append(int(text))
+    return tuple(parts)
+
+
+def canonical(residual: Expr, var_rows: Ints, par_rows: Ints) -> tuple[Expr, Ints, Ints]:
+    """Renumber slots by first occurrence and drop those that do not occur."""
+    from ..symbolic.traverse import leaves, substitute
+
+    mapping: dict[Expr, Expr] = {}
+    columns: tuple[list[int], list[int]] = ([], [])
+    for leaf in leaves(residual):
+        if leaf.op in ("var", "par"):
+            which = columns[leaf.op == "par"]
+            mapping[leaf] = par(len(which)) if leaf.op == "par" else var(len(which))
+            which.append(leaf.value)
+    if all(a is b for a, b in mapping.items()) and len(columns[0]) == var_rows.shape[1] and len(columns[1]) == par_rows.shape[1]:
+        return residual, var_rows, par_rows
+    return substitute(residual, mapping), var_rows[:, columns[0]], par_rows[:, columns[1]]

@@ -1,0 +1,50 @@
+"""Equations: two expressions that are equal at all times, and where the user wrote them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NoReturn
+
+from .expr import Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """Where an equation was written.
+
+    Attributes:
+        class_name: class whose `equations` yielded it.
+        file: path of the source file.
+        line: line number, 0 when unknown.
+        kind: ``equation``, ``connect``, ``initial``, ``start``, ``derived`` ...
+    """
+
+    class_name: str
+    file: str
+    line: int
+    kind: str = "equation"
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line} ({self.class_name})" if self.line else self.class_name
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Equation:
+    """``lhs == rhs``."""
+
+    lhs: Expr
+    rhs: Expr
+
+    def __bool__(self) -> NoReturn:
+        raise TypeError(
+            f"`{self}` is an equation, which is neither true nor false: yield it from equations(), or use a "
+            "comparison (<, <=, >, >=) inside where(...) for a condition"
+        )
+
+    def __str__(self) -> str:
+        return f"{self.lhs} = {self.rhs}"
+
+    @property
+    def residual(self) -> Expr:
+        """``lhs - rhs``."""
+        return self.lhs - self.rhs

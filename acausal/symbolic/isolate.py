@@ -1,0 +1,82 @@
+"""Solve an equation for one unknown: affine, or a chain of one-to-one operators. Never a general solver."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+
+from .differentiate import partial
+from .expr import ZERO, Expr, add, div, neg
+from .operators import OPERATORS
+from .traverse import contains, leaves, substitute
+
+
+class Solvability(enum.IntEnum):
+    """How an equation can be solved for an unknown (Otter and Elmqvist 1994); the smaller the better."""
+
+    CONSTANT = 0
+    """affine, the coefficient is a non-zero number"""
+    PARAMETER = 1
+    """affine, the coefficient depends on parameters only"""
+    VARIABLE = 2
+    """affine, the coefficient depends on variables or time: it may pass through zero"""
+    INVERTIBLE = 3
+    """the unknown occurs once, under one-to-one operators"""
+    NONLINEAR = 4
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Isolated:
+    """`unknown = solution`, valid while `coefficient` is not zero."""
+
+    solution: Expr | None
+    coefficient: Expr
+    solvability: Solvability
+
+
+def isolate(residual: Expr, unknown: Expr) -> Isolated:
+    """Solve ``residual == 0`` for `unknown` (a leaf)."""
+    slope = partial(residual, unknown)
+    if not contains(slope, unknown):
+        if slope is ZERO:
+            return Isolated(None, slope, Solvability.NONLINEAR)
+        rest = substitute(residual, {unknown: ZERO})
+        return Isolated(_quotient(rest, slope), slope, _class_of(slope))
+    solution = _invert(residual, unknown)
+    if solution is None:
+        return Isolated(None, slope, Solvability.NONLINEAR)
+    return Isolated(solution, slope, Solvability.INVERTIBLE)
+
+
+def _quotient(rest: Expr, slope: Expr) -> Expr:
+    return neg(div(rest, slope))
+
+
+def _class_of(slope: Expr) -> Solvability:
+    if slope.op == "const":
+        return Solvability.CONSTANT
+    kinds = {leaf.op for leaf in leaves(slope)}
+    return Solvability.PARAMETER if kinds <= {"par"} else Solvability.VARIABLE
+
+
+def _invert(residual: Expr, unknown: Expr) -> Expr | None:
+    """Peel one-to-one operators off the one term that holds the unknown."""
+    node, other = residual, ZERO  # invariant: node == other
+    while node is not unknown:
+        holding = [i for i, a in enumerate(node.args) if contains(a, unknown)]
+        if len(holding) != 1:
+            return None
+        i = holding[0]
+        if node.op == "add":
+            other = add(other, *(neg(a) for j, a in enumerate(node.args) if j != i))
+        elif node.op == "mul":
+            other = div(other, node.args[1 - i])
+        elif node.op == "div":
+            other = other * node.args[1] if i == 0 else div(node.args[0], other)
+        else:
+            inverse = OPERATORS[node.op].inverse if node.op in OPERATORS else None
+            if inverse is None:
+                return None
+            other = inverse(other)
+        node = node.args[i]
+    return other

@@ -1,0 +1,131 @@
+"""Iterative traversals: postorder, leaves, substitution, evaluation. No recursion, so depth is not limited."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from .expr import Expr, make
+from .operators import OPERATORS
+
+
+def postorder(roots: Iterable[Expr]) -> list[Expr]:
+    """Every node below `roots`, operands before operators, each once."""
+    seen: dict[int, None] = {}
+    order: list[Expr] = []
+    stack: list[tuple[Expr, bool]] = [(root, False) for root in reversed(list(roots))]
+    while stack:
+        node, expanded = stack.pop()
+        if expanded:
+            order.append(node)
+            continue
+        if id(node) in seen:
+            continue
+        seen[id(node)] = None
+        stack.append((node, True))
+        stack.extend((a, False) for a in reversed(node.args) if id(a) not in seen)
+    return order
+
+
+def leaves(*roots: Expr, op: str | None = None) -> list[Expr]:
+    """Leaves below `roots` in order of first occurrence; only those of kind `op` if given."""
+    return [n for n in postorder(roots) if not n.args and n.op not in ("const", "call") and (op is None or n.op == op)]
+
+
+def contains(root: Expr, leaf: Expr) -> bool:
+    """Whether `leaf` occurs in `root`."""
+    return any(node is leaf for node in postorder((root,)))
+
+
+def rewrite(roots: Iterable[Expr], replace: Callable[[Expr], Expr | None]) -> list[Expr]:
+    """Rebuild `roots` bottom up; `replace(node)` gives a node's substitute, or None to keep it (with new operands)."""
+    roots = list(roots)
+    memo: dict[int, Expr] = {}
+    for node in postorder(roots):
+        new = replace(node)
+        if new is None:
+            args = tuple(memo[id(a)] for a in node.args)
+            same = all(a is b for a, b in zip(args, node.args, strict=True))
+            new = node if same else make(node.op, args, node.value)
+        memo[id(node)] = new
+    return [memo[id(root)] for root in roots]
+
+
+def substitute(root: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
+    """`root` with leaves (or whole nodes) replaced."""
+    return rewrite((root,), mapping.get)[0]
+
+
+def evaluate(roots: Iterable[Expr], leaf: Callable[[Expr], Any], xp: Any, memo: dict[int, Any] | None = None) -> list[Any]:
+    """Values of `roots`, computed with the functions of module `xp` (`numpy` or `jax.numpy`).
+
+    Args:
+        roots: expressions.
+        leaf: value of a leaf other than a constant.
+        xp: array module.
+        memo: values by node identity; given, it is extended, so that later calls share subexpressions. The caller
+            keeps the nodes alive.
+    """
+    roots = list(roots)
+    values: dict[int, Any] = {} if memo is None else memo
+    for node in postorder_missing(roots, values):
+        if node.op == "const":
+            values[id(node)] = node.value
+        elif node.op == "call":
+            values[id(node)] = node.value.evaluate(*(values[id(a)] for a in node.args), xp=xp)
+        elif not node.args:
+            values[id(node)] = leaf(node)
+        else:
+            values[id(node)] = apply(node, [values[id(a)] for a in node.args], xp)
+    return [values[id(root)] for root in roots]
+
+
+def postorder_missing(roots: list[Expr], known: Mapping[int, Any]) -> list[Expr]:
+    """Postorder that stops at nodes whose value is known."""
+    seen: dict[int, None] = {}
+    order: list[Expr] = []
+    stack: list[tuple[Expr, bool]] = [(root, False) for root in reversed(roots)]
+    while stack:
+        node, expanded = stack.pop()
+        if expanded:
+            order.append(node)
+            continue
+        if id(node) in seen or id(node) in known:
+            continue
+        seen[id(node)] = None
+        stack.append((node, True))
+        stack.extend((a, False) for a in reversed(node.args))
+    return order
+
+
+def apply(node: Expr, args: list[Any], xp: Any) -> Any:
+    """Value of one operator on its operands' values."""
+    op = node.op
+    if op == "add":
+        return _sum(node, args)
+    if op == "mul":
+        return args[0] * args[1]
+    if op == "div":
+        return args[0] / args[1]
+    if op == "neg":
+        return -args[0]
+    if op == "pow":
+        exponent = node.args[1]
+        if exponent.op == "const" and exponent.value == int(exponent.value) and abs(exponent.value) <= 16:
+            return args[0] ** int(exponent.value)
+        return xp.power(args[0], args[1])
+    if op == "where":
+        return xp.where(*args)
+    return getattr(xp, OPERATORS[op].array)(*args)
+
+
+def _sum(node: Expr, args: list[Any]) -> Any:
+    """Left-to-right sum; `-x` terms are subtracted."""
+    result = args[0]
+    for term, value in zip(node.args[1:], args[1:], strict=True):
+        if isinstance(value, float) and value < 0:
+            result = result - (-value)
+        else:
+            result = result + value
+        del term
+    return result
