@@ -1,0 +1,6 @@
+"""Component libraries, one module a domain; names and signs follow the Modelica Standard Library 4.0.
+
+`blocks`, `electrical`, `translational`, `rotational`, `thermal`, `planar` and the package `hydraulic` are imported by
+name: ``from acausal.components import electrical``. All quantities are in SI units. Flow variables are positive into
+the component.
+"""

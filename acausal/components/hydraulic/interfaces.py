@@ -1,0 +1,44 @@
+"""Port, oil, and the two-port that most components extend."""
+
+from __future__ import annotations
+
+from acausal import Component, Connector, Equations, Flow, Parameter, Potential, Variable
+
+
+class HydraulicPort(Connector):
+    """Point where oil can cross a component's boundary.
+
+    Source: connector of OpenHydraulics and of Modelica.Fluid, with the volume flow rate as the flow variable.
+    """
+
+    p: Potential = Potential(unit="Pa", nominal=1e6, doc="absolute pressure")
+    q: Flow = Flow(unit="m3/s", nominal=1e-3, doc="volume flow rate into the component")
+
+
+class Oil(Component):
+    """Properties of the oil, all constant; shared by declaring one ``inner`` and reading it as ``outer``.
+
+    Source: bulk modulus as in Eq. 6; values of an ISO VG 46 oil at 40 degC.
+    """
+
+    rho: Parameter = Parameter(850.0, unit="kg/m3", min=0.0, doc="density")
+    nu: Parameter = Parameter(46e-6, unit="m2/s", min=0.0, doc="kinematic viscosity")
+    B: Parameter = Parameter(1.2e9, unit="Pa", min=0.0, doc="bulk modulus")
+
+
+class PartialTwoPort(Component, partial=True):
+    """Two ports, no storage: ``q = port_a.q = -port_b.q``, ``dp = port_a.p - port_b.p``.
+
+    Source: Modelica.Fluid.Interfaces.PartialTwoPortTransport, for a volume flow rate.
+    """
+
+    port_a: HydraulicPort = HydraulicPort()
+    port_b: HydraulicPort = HydraulicPort()
+    dp: Variable = Variable(unit="Pa", nominal=1e6, doc="pressure drop, port_a.p - port_b.p")
+    q: Variable = Variable(unit="m3/s", nominal=1e-3, doc="volume flow rate from a to b")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.dp == self.port_a.p - self.port_b.p
+        yield self.q == self.port_a.q
+        yield self.port_a.q + self.port_b.q == 0

@@ -1,0 +1,95 @@
+"""Every public component: documented with its source, made without arguments, used in an example that simulates."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Array, Component, Connector
+from acausal.components import blocks, electrical, hydraulic, planar, rotational, thermal, translational
+
+from .examples import CRANES, EXAMPLES
+
+MODULES = (blocks, electrical, hydraulic, planar, rotational, thermal, translational)
+
+
+def public_classes() -> list[type[Component]]:
+    """The component and connector classes that the library's modules define for users."""
+    found: list[type[Component]] = []
+    for module in MODULES:
+        for name, value in vars(module).items():
+            own = inspect.isclass(value) and value.__module__.startswith(module.__name__)
+            if own and issubclass(value, Component) and not name.startswith("_"):
+                found.append(value)
+    return found
+
+
+def parts(component: Component) -> Iterator[Component]:
+    """`component` and all of its sub-components."""
+    yield component
+    for cls in type(component).__mro__:
+        for name in vars(cls).get("__annotations__", {}):
+            value = getattr(component, name, None)
+            element = value[0] if isinstance(value, Array) else value
+            if isinstance(element, Component):
+                yield from parts(element)
+
+
+CLASSES = public_classes()
+
+
+def named(cls: type[Component]) -> str:
+    return f"{cls.__module__.removeprefix('acausal.components.')}.{cls.__name__}"
+
+
+def is_partial(cls: type[Component]) -> bool:
+    """Whether the class cannot stand in a model on its own."""
+    return cls.__name__.startswith("Partial") or cls in {
+        blocks.SignalSource, blocks.SISO, blocks.TimeTable, electrical.TwoPin, electrical.OnePort,
+        electrical.VoltageSource, planar.CylinderJoint, thermal.Element1D,
+    }  # fmt: skip
+
+
+def test_the_library_is_not_empty() -> None:
+    assert len(CLASSES) > 100
+    assert {named(c) for c in CLASSES} >= {"electrical.Resistor", "hydraulic.pipes.Pipe", "translational.Mass"}
+
+
+@pytest.mark.parametrize("cls", CLASSES, ids=named)
+def test_documented_with_source(cls: type[Component]) -> None:
+    text = cls.__doc__ or ""
+    assert "Source:" in text, f"{named(cls)} names no source"
+    assert len(text.split("Source:")[0].split()) >= 3
+
+
+@pytest.mark.parametrize("cls", CLASSES, ids=named)
+def test_fields_have_units_or_texts(cls: type[Component]) -> None:
+    for base in cls.__mro__:
+        for name, value in vars(base).items():
+            if isinstance(value, (ac.Parameter, ac.Variable)):
+                assert value.doc, f"{named(cls)}.{name} has no doc"
+
+
+@pytest.mark.parametrize("cls", CLASSES, ids=named)
+def test_made_without_arguments(cls: type[Component]) -> None:
+    assert isinstance(cls(), cls)
+
+
+def test_every_component_is_used_in_an_example() -> None:
+    used = {base for model in (*EXAMPLES.values(), *CRANES.values()) for p in parts(model) for base in type(p).__mro__}
+    unused = [named(c) for c in CLASSES if not issubclass(c, Connector) and c not in used and not is_partial(c)]
+    assert not unused
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_example_simulates(name: str) -> None:
+    system = ac.compile(EXAMPLES[name])
+    t = np.linspace(0.0, 1.0, 11)
+    solution = system.simulate(t1=1.0, saveat=t, rtol=1e-6)
+    for variable in (*system.states, *system.observed):
+        values = np.asarray(solution[variable])
+        assert np.all(np.isfinite(values)), f"{name}: {variable}"
