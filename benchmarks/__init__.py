@@ -1,0 +1,1 @@
+"""Timings of the package, side by side with what a user would pick instead."""
