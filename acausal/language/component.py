@@ -506,6 +506,7 @@ def _modify_one(given: C, effective: Component, parts: list[str], value: Any, pa
         hint = nearest(head, cls._children)
         raise DeclarationError(f"`{path}`: class `{cls.__name__}` has no sub-component `{head}`.{hint} {call_site()}")
     child = effective_child(effective, head)
+    child = child.component if isinstance(child, Shared) else child
     if not isinstance(child, Component):
         raise DeclarationError(
             f"`{path}`: `{head}` is an array of components; give `{head}=Array(...)` with its values {call_site()}"

@@ -10,6 +10,7 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
+from jax.extend.core import jaxprs_in_params
 
 FUSE_BELOW = 1500
 """Equations of the traced program up to which loop fusion pays; beyond, compiling takes too long (it grows faster than linearly)."""
@@ -48,7 +49,7 @@ def count_equations(jaxpr: Any) -> int:
         seen.add(id(inner))
         total += len(inner.eqns)
         for equation in inner.eqns:
-            stack.extend(jax.core.jaxprs_in_params(equation.params))
+            stack.extend(jaxprs_in_params(equation.params))
     return total
 
 
@@ -81,7 +82,7 @@ def jit(fun: Callable[..., Any], *, fusion: bool | None = None, **options: Any) 
 
     @functools.wraps(fun)
     def call(*args: Any, **kwargs: Any) -> Any:
-        if not jax.core.trace_state_clean():
+        if inside_jit():
             return inner(*args, **kwargs)
         if not decided:
             decided.append(choose_fusion(inner.trace(*args, **kwargs).jaxpr))
@@ -89,6 +90,11 @@ def jit(fun: Callable[..., Any], *, fusion: bool | None = None, **options: Any) 
 
     call.lower = lambda *args, **kwargs: outer(decided[0] if decided else True).lower(*args, **kwargs)  # type: ignore[attr-defined]
     return call
+
+
+def inside_jit() -> bool:
+    """Whether operations are being recorded for a compiled program rather than carried out."""
+    return isinstance(jnp.add(0, 0), jax.core.Tracer)
 
 
 def choose_fusion(jaxpr: Any) -> bool:
@@ -107,7 +113,7 @@ def ensure_x64() -> None:
     """
     if jax.config.read("jax_enable_x64"):
         return
-    if not jax.core.trace_state_clean():
+    if inside_jit():
         from acausal.errors import SimulationError
 
         raise SimulationError(

@@ -86,16 +86,8 @@ def _matrix_free_step(lowered: Lowered, t: Any, x: Array, w: Array, p: Array) ->
     return z[:n_x], z[n_x:]
 
 
-class Projected(AbstractWrappedSolver[Any]):
-    """Any diffrax solver, with `project(t, y, args) -> y` run on the candidate of each step.
-
-    Args:
-        solver: the solver to wrap.
-        project: projection of a candidate, for example on the invariants of a mechanism.
-    """
-
-    solver: AbstractSolver[Any]
-    project: Callable[[Any, Any, Any], Any]
+class _Wrapped(AbstractWrappedSolver[Any]):
+    """What a wrapper passes on to the solver in it."""
 
     @property
     def term_structure(self) -> Any:
@@ -109,17 +101,38 @@ class Projected(AbstractWrappedSolver[Any]):
     def term_compatible_contr_kwargs(self) -> Any:
         return self.solver.term_compatible_contr_kwargs
 
+    @property
+    def root_finder(self) -> Any:
+        """Of implicit solvers: diffrax sets its tolerances."""
+        return self.solver.root_finder  # pyright: ignore[reportAttributeAccessIssue]
+
+    @property
+    def root_find_max_steps(self) -> Any:
+        return self.solver.root_find_max_steps  # pyright: ignore[reportAttributeAccessIssue]
+
     def order(self, terms: Any) -> int | None:
         return self.solver.order(terms)
 
     def error_order(self, terms: Any) -> Any:
         return self.solver.error_order(terms)
 
-    def init(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any) -> Any:
-        return self.solver.init(terms, t0, t1, y0, args)
-
     def func(self, terms: Any, t0: Any, y0: Any, args: Any) -> Any:
         return self.solver.func(terms, t0, y0, args)
+
+
+class Projected(_Wrapped):
+    """Any diffrax solver, with `project(t, y, args) -> y` run on the candidate of each step.
+
+    Args:
+        solver: the solver to wrap.
+        project: projection of a candidate, for example on the invariants of a mechanism.
+    """
+
+    solver: AbstractSolver[Any]
+    project: Callable[[Any, Any, Any], Any]
+
+    def init(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any) -> Any:
+        return self.solver.init(terms, t0, t1, y0, args)
 
     def step(
         self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any, solver_state: Any, made_jump: Any
@@ -138,7 +151,7 @@ def _end(dense_info: Any, y1: Any) -> Any:
     return {**dense_info, "y1": y1} if isinstance(dense_info, dict) and "y1" in dense_info else dense_info
 
 
-class WithAlgebraic(AbstractWrappedSolver[Any]):
+class WithAlgebraic(_Wrapped):
     """A diffrax solver of `x' = f(t, x, (p, w))` that carries w from step to step as the guess for its own equations.
 
     Args:
@@ -149,29 +162,8 @@ class WithAlgebraic(AbstractWrappedSolver[Any]):
     solver: AbstractSolver[Any]
     solve_algebraic: Callable[[Any, Array, Array, Array], Array]
 
-    @property
-    def term_structure(self) -> Any:
-        return self.solver.term_structure
-
-    @property
-    def interpolation_cls(self) -> Any:  # pyright: ignore[reportIncompatibleVariableOverride]
-        return self.solver.interpolation_cls
-
-    @property
-    def term_compatible_contr_kwargs(self) -> Any:
-        return self.solver.term_compatible_contr_kwargs
-
-    def order(self, terms: Any) -> int | None:
-        return self.solver.order(terms)
-
-    def error_order(self, terms: Any) -> Any:
-        return self.solver.error_order(terms)
-
     def init(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any) -> Any:
         return self.solver.init(terms, t0, t1, y0, args), args[1]
-
-    def func(self, terms: Any, t0: Any, y0: Any, args: Any) -> Any:
-        return self.solver.func(terms, t0, y0, args)
 
     def step(
         self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any, solver_state: Any, made_jump: Any

@@ -1,0 +1,122 @@
+"""The pass list: from a model to a `System`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from time import perf_counter
+from typing import Any, TypeVar
+
+import numpy as np
+
+from .errors import DeclarationError
+from .language.component import Component
+from .language.flat_model import FlatModel
+from .language.flatten import flatten
+from .language.template import Floats
+from .lowering.initial import initial_problem
+from .lowering.lowered import Lowered
+from .lowering.parameters import ParameterProgram
+from .passes.aliases import Reduced, eliminate_aliases
+from .passes.inputs import input_equations
+from .passes.regularize import regularize
+from .passes.schedule import make_schedule
+from .passes.specialize import specialize
+from .passes.states import select_states
+from .passes.structure import check_structure
+from .system import Stages, System
+from .units import check_units
+
+T = TypeVar("T")
+
+
+class _Clock:
+    """Runs passes and notes how long each took; `progress` is told the name of each before it starts."""
+
+    def __init__(self, progress: Callable[[str], None] | None) -> None:
+        self.seconds: dict[str, float] = {}
+        self.progress = progress
+
+    def __call__(self, name: str, work: Callable[[], T]) -> T:
+        if self.progress is not None:
+            self.progress(name)
+        begin = perf_counter()
+        result = work()
+        self.seconds[name] = self.seconds.get(name, 0.0) + perf_counter() - begin
+        return result
+
+
+def compile(
+    model: Component,
+    *,
+    inputs: Sequence[str] = (),
+    outputs: Sequence[str] = (),
+    progress: Callable[[str], None] | None = None,
+) -> System:
+    """Compile a model.
+
+    Args:
+        model: an instance of a component class.
+        inputs: names of the model's own `Input` fields that `simulate(inputs=...)` will feed, for a check that they
+            exist; every `Input` of the model itself is an input of the system.
+        outputs: names of variables of interest (checked; they head the result).
+        progress: called with the name of each pass before it runs.
+
+    Returns:
+        the compiled system.
+
+    Raises:
+        DeclarationError: the model's declarations are wrong.
+        ConnectError: connectors that do not fit.
+        UnitError: an equation whose sides have different units.
+        StructureError: equations and unknowns cannot be paired.
+    """
+    if not isinstance(model, Component):
+        what = f"the class `{model.__name__}`: call it" if isinstance(model, type) else f"{type(model).__name__}"
+        raise DeclarationError(f"ac.compile takes an instance of a Component class, not {what}")
+    clock = _Clock(progress)
+    flat = clock("flatten", lambda: flatten(model))
+    counts = {"variables": flat.n_var, "equations": _declared(flat)}
+    clock("units", lambda: check_units(flat))
+    flat = clock("inputs", lambda: input_equations(flat, inputs, outputs))
+    program = clock("parameters", lambda: ParameterProgram(flat))
+    reduced = clock("aliases", lambda: eliminate_aliases(flat))
+    clock("structure check", lambda: check_structure(reduced))
+    low_index = clock("index reduction", lambda: regularize(reduced, program.default))
+    selected = clock("states", lambda: select_states(low_index, program.default))
+    schedule = clock("sort and tear", lambda: make_schedule(selected))
+    lowered = clock("lower", lambda: Lowered(schedule, _nominal(flat, reduced, len(low_index.unknown)), program.n_p))
+    initial = specialize(flat.initial, *_extended(reduced, flat.n_total))
+    with_start = ~np.isnan(flat.start)
+    for assignment in flat.start_assignments:
+        with_start[assignment.targets] = True
+    problem = initial_problem(reduced, lowered, initial, with_start)
+    stages = Stages(flat, reduced, low_index, schedule, counts, clock.seconds)
+    return System(stages, program, lowered, problem, tuple(outputs))
+
+
+def _declared(flat: FlatModel) -> int:
+    """Scalar equations before alias elimination, those of connections included."""
+    return sum(f.size for f in flat.families) + len(flat.alias_a) + len(flat.zero)
+
+
+def _extended(reduced: Reduced, n: int) -> Any:
+    """Representative and sign of all variables, those that index reduction added included."""
+    more = n - len(reduced.representative)
+    return (
+        np.concatenate([reduced.representative, np.arange(n - more, n)]),
+        np.concatenate([reduced.sign, np.ones(more, np.int64)]),
+    )
+
+
+def _nominal(flat: FlatModel, reduced: Reduced, n: int) -> Floats:
+    """Scale of every variable: its nominal value, that of an alias, the size of its start value, else 1."""
+    nominal = np.full(n, np.nan)
+    given = flat.nominal[:n]
+    nominal[: len(given)] = given
+    m = len(reduced.representative)
+    aliases = np.flatnonzero(~np.isnan(given[:m]) & (reduced.representative != np.arange(m)))
+    for v in aliases[::-1]:
+        r = int(reduced.representative[v])
+        if np.isnan(nominal[r]):
+            nominal[r] = given[v]
+    return np.where(np.isnan(nominal), 1.0, nominal)

@@ -1,0 +1,201 @@
+"""Initialization: consistent values at the start, from fixed starts, initial equations, invariants and guesses.
+
+Unknowns are the states that are not fixed and the algebraic unknowns. Where the conditions leave freedom, the solution
+nearest to the start values is taken (in the scale of the nominal values): a Gauss-Newton iteration with minimum-norm
+steps (Deuflhard 2011, Newton Methods for Nonlinear Problems, 4.4).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..language.flat_model import Bools, Family
+from ..language.template import Ints
+from ..passes.aliases import Reduced
+from .lowered import Lowered
+
+TOLERANCE = 1e-10
+"""Residuals are zero when a Newton step would move the unknowns by less than this fraction of their scale."""
+
+
+@dataclass(slots=True, eq=False)
+class InitialProblem:
+    """What must hold at the start.
+
+    Attributes:
+        start_source: for every reduced variable, the variable whose start value it takes (an alias, or itself).
+        start_sign: sign of that alias.
+        fixed: mask over the states of those whose start value is an equation.
+        targets: other variables whose start value is an equation.
+        families: initial equations.
+    """
+
+    lowered: Lowered
+    start_source: Ints
+    start_sign: Ints
+    fixed: Bools
+    targets: Ints
+    families: list[Family]
+    extra: dict[Any, Any] = field(default_factory=dict[Any, Any])
+
+    @property
+    def trivial(self) -> bool:
+        """Whether the start values of the states are the solution."""
+        return not (len(self.targets) or self.families or self.lowered.n_g)
+
+
+def initial_problem(reduced: Reduced, lowered: Lowered, families: list[Family], with_start: Bools) -> InitialProblem:
+    """Collect start values over alias sets.
+
+    Args:
+        reduced: the model after alias elimination.
+        lowered: the compiled equations.
+        families: initial equations over representatives.
+        with_start: mask of the variables that have a start value.
+    """
+    flat = reduced.flat
+    n = lowered.n_ids
+    source, sign = np.arange(n), np.ones(n, np.int64)
+    fixed = np.zeros(n, bool)
+    fixed[: flat.n_var] = flat.fixed[: flat.n_var] == 1
+    given = np.zeros(n, bool)
+    given[: len(with_start)] = with_start
+    members = np.flatnonzero(given[: len(reduced.representative)])
+    alias = members[reduced.representative[members] != members]
+    # later assignments win: guesses first, fixed ones last; a representative's own fixed value stays
+    for v in alias[np.argsort(fixed[alias], kind="stable")][::-1]:
+        r = int(reduced.representative[v])
+        own = given[r] and (fixed[r] or not fixed[v])
+        if not own and not (source[r] != r and fixed[source[r]]):
+            source[r], sign[r] = v, int(reduced.sign[v])
+            fixed[r] = fixed[r] or fixed[v]
+    states = lowered.schedule.states
+    is_state = np.zeros(n, bool)
+    is_state[states] = True
+    remaining = np.zeros(n, bool)
+    remaining[: len(reduced.unknown)] = reduced.unknown
+    targets = np.flatnonzero(fixed & remaining & ~is_state)
+    return InitialProblem(lowered, source, sign, fixed[states], targets, families)
+
+
+def solve_initial(
+    problem: InitialProblem, t0: Any, p: Any, starts: Any, overrides: dict[int, Any]
+) -> tuple[Any, Any, Any]:
+    """Consistent (x0, w0) and the remaining residuals.
+
+    Args:
+        problem: what must hold.
+        t0: start time [s].
+        p: all parameters.
+        starts: start values of all variables (nan where not given).
+        overrides: reduced variable index to value: further fixed starts.
+    """
+    import jax.numpy as jnp
+
+    low = problem.lowered
+    states = low.schedule.states
+    x_start = _start_of(problem, states, starts)
+    w_start = _start_of(problem, low.schedule.tears, starts)
+    position = {int(v): i for i, v in enumerate(states)} if overrides else {}
+    fixed = problem.fixed.copy()
+    targets = {int(v): problem.start_sign[v] * starts[int(problem.start_source[v])] for v in problem.targets}
+    for index, value in overrides.items():
+        if index in position:
+            x_start = x_start.at[position[index]].set(value)
+            fixed[position[index]] = True
+        else:
+            targets[index] = value
+    if not (targets or problem.families or low.n_g):
+        w0 = low.solve_algebraic(t0, x_start, w_start, p) if low.n_w else w_start
+        return x_start, w0, jnp.zeros(0)
+    free = np.flatnonzero(~fixed)
+    ids = np.array(list(targets), np.int64)
+    wanted = jnp.stack([jnp.asarray(v, float) for v in targets.values()]) if targets else jnp.zeros(0)
+
+    def residual(y: Any, x_start: Any) -> Any:
+        x = x_start.at[free].set(y[: len(free)]) if len(free) else x_start
+        w = y[len(free) :]
+        parts = [low.derivatives(t0, x, w, p)[1]] if low.n_w else []
+        if low.n_g:
+            parts.append(low.invariants(t0, x, w, p))
+        if len(ids):
+            parts.append(low.values(ids, t0, x, w, p) - wanted)
+        if problem.families:
+            parts.append(low.residuals_of(problem.families, t0, x, w, p))
+        return jnp.concatenate(parts)
+
+    scale = jnp.asarray(np.concatenate([low.x_nominal[free], low.w_nominal]))
+    y_start = jnp.concatenate([x_start[free], w_start])
+    y, left = _gauss_newton(residual, y_start, scale, x_start)
+    return (x_start.at[free].set(y[: len(free)]) if len(free) else x_start), y[len(free) :], left
+
+
+def _start_of(problem: InitialProblem, ids: Ints, starts: Any) -> Any:
+    import jax.numpy as jnp
+
+    if not len(ids):
+        return jnp.zeros(0)
+    values = problem.start_sign[ids] * starts[problem.start_source[ids]]
+    return jnp.where(jnp.isnan(values), 0.0, values)
+
+
+def _gauss_newton(residual: Any, y_start: Any, scale: Any, context: Any) -> tuple[Any, Any]:
+    """Nearest root to `y_start`, and its residual (relative to the scale of each equation).
+
+    The iteration runs without derivatives; one more step outside of it carries them: at a root its derivative is that of
+    the implicit function, and start values move the solution within the null space of the Jacobian.
+    """
+    import jax
+    import jax.numpy as jnp
+
+    frozen = jax.lax.stop_gradient(context)
+
+    def f(y: Any) -> Any:
+        return residual(y, frozen)
+
+    jac = jax.jacfwd(f)
+
+    def step_of(y: Any) -> tuple[Any, Any]:
+        r, j = f(y), jac(y) * scale
+        row = jnp.maximum(jnp.abs(j).max(axis=1), 1e-300)
+        delta = jnp.linalg.lstsq(j / row[:, None], -r / row, rcond=1e-11)[0]
+        return delta, jnp.abs(r / row).max()
+
+    def body(state: Any) -> Any:
+        y, _, k = state
+        delta, size = step_of(y)
+        delta = jnp.where(jnp.isfinite(delta), delta, 0.0)
+
+        def worse(s: Any) -> Any:
+            return (~(s[1] < size)) & (s[0] > 1e-9)
+
+        def halve(s: Any) -> Any:
+            factor = 0.5 * s[0]
+            return factor, step_of(y + factor * delta * scale)[1]
+
+        factor, new = jax.lax.while_loop(worse, halve, (jnp.ones(()), step_of(y + delta * scale)[1]))
+        moved = jnp.abs(factor * delta).max(initial=0.0)
+        y = jnp.where(new < size, y + factor * delta * scale, y)
+        return y, jnp.where(new < size, moved, 0.0), k + 1
+
+    def again(state: Any) -> Any:
+        return (state[1] > 1e-15) & (state[2] < 80)
+
+    start = jax.lax.stop_gradient(y_start)
+    scale = jnp.maximum(scale, 0.0)
+    y, _, _ = jax.lax.while_loop(again, body, (start, jnp.asarray(jnp.inf), 0))
+    y = jax.lax.stop_gradient(y)
+    j = jax.lax.stop_gradient(jac(y)) * scale
+    row = jnp.maximum(jnp.abs(j).max(axis=1), 1e-300)
+    pseudo = jnp.linalg.pinv(j / row[:, None], rtol=1e-11)
+    r = residual(y, context)
+    left = jax.lax.stop_gradient(jnp.abs(r / row))
+    correction = -pseudo @ (r / row)
+    tangent_start = (y_start - start) / scale
+    null = tangent_start - pseudo @ ((j / row[:, None]) @ tangent_start)
+    # values are those of the iteration; only derivatives come from the two linear terms
+    correction = correction - jax.lax.stop_gradient(correction)
+    return y + (correction + null) * scale, left

@@ -1,0 +1,149 @@
+"""Alias elimination: ``a = b``, ``a = -b`` and ``a = 0`` disappear, whole families at a time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..dae.alias import alias_sets
+from ..language.declarations import STATE_SELECT
+from ..language.flat_model import Bools, Family, FlatModel
+from ..language.template import Ints
+from ..symbolic.expr import Expr, add, neg, var
+from .specialize import merge, specialize
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Redundant:
+    """An alias equation that adds nothing to the others (or contradicts them)."""
+
+    text: str
+    component: str
+    place: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reduced:
+    """The model without aliases.
+
+    Attributes:
+        families: remaining equations, over representatives.
+        representative: of every variable (itself if it remains).
+        sign: ``variable = sign * representative``; 0 for variables that are always zero.
+        unknown: mask of the variables (and derivatives) that remain.
+        redundant: alias equations that close a cycle.
+    """
+
+    flat: FlatModel
+    families: list[Family]
+    representative: Ints
+    sign: Ints
+    unknown: Bools
+    redundant: list[Redundant]
+
+    @property
+    def n_equations(self) -> int:
+        """Number of scalar equations."""
+        return sum(f.size for f in self.families)
+
+
+@dataclass(slots=True)
+class _Edges:
+    """Alias equations found so far; the sign of a zero equation is 0."""
+
+    a: Ints
+    b: Ints
+    sign: Ints
+    source: Ints
+    ordinal: Ints
+
+    def extend(self, a: Ints, b: Ints, sign: Ints, source: Ints, ordinal: Ints) -> _Edges:
+        pairs = zip((self.a, self.b, self.sign, self.source, self.ordinal), (a, b, sign, source, ordinal), strict=True)
+        return _Edges(*(np.concatenate(p) for p in pairs))
+
+
+def eliminate_aliases(flat: FlatModel) -> Reduced:
+    """Merge equal variables; differentiated variables stay apart, so that the structural index is the model's own."""
+    edges = _Edges(flat.alias_a, flat.alias_b, flat.alias_sign, flat.alias_source, flat.alias_ordinal)
+    edges = edges.extend(flat.zero, flat.zero, np.zeros_like(flat.zero), flat.zero_source, flat.zero_ordinal)
+    keep = (flat.derivative_of >= 0) | (flat.parent >= 0)
+    rank = _rank(flat)
+    families = merge(flat.families)
+    while True:
+        families, found = _detect(families)
+        for family, sign in found:
+            zero = sign == 0
+            b = family.var_rows[:, 0 if zero else 1]
+            signs = np.full(family.size, sign)
+            edges = edges.extend(family.var_rows[:, 0], b, signs, family.source, family.ordinal)
+        zeros = edges.sign == 0
+        order = np.concatenate([np.flatnonzero(~zeros), np.flatnonzero(zeros)])
+        link = ~zeros
+        sets = alias_sets(
+            flat.n_total, edges.a[link], edges.b[link], edges.sign[link], edges.a[zeros], keep, rank
+        )
+        representative = np.asarray(sets.representative)
+        sign = np.where(np.asarray(sets.is_zero), 0, np.asarray(sets.sign)).astype(np.int64)
+        families = specialize(families, representative, sign)
+        if not any(_alias_sign(f.residual) is not None for f in families):
+            break
+    redundant = [_redundant(flat, edges, int(order[e])) for e in sets.redundant_edges]
+    families = merge([*families, *_kept(edges, np.asarray(sets.kept_pairs))])
+    unknown = (representative == np.arange(flat.n_total)) & (sign != 0)
+    return Reduced(flat, families, representative, sign, unknown, redundant)
+
+
+def _rank(flat: FlatModel) -> Ints:
+    """Preference for the representative: what the user named most: a start value, then creation order."""
+    prefer = STATE_SELECT.index("default") - flat.select.astype(np.int64)
+    return prefer * 4 + np.where(flat.fixed == 1, 0, np.where(np.isnan(flat.start), 2, 1))
+
+
+def _alias_sign(residual: Expr) -> int | None:
+    """1 for ``a = b``, -1 for ``a = -b``, 0 for ``a = 0``, None for other equations."""
+    if residual.op == "var" or (residual.op == "neg" and residual.args[0].op == "var"):
+        return 0
+    if residual.op == "add" and len(residual.args) == 2:
+        a, b = residual.args
+        same = [(x.args[0] if x.op == "neg" else x).op == "var" for x in (a, b)]
+        if all(same):
+            return 1 if (a.op == "neg") != (b.op == "neg") else -1
+    return None
+
+
+def _detect(families: list[Family]) -> tuple[list[Family], list[tuple[Family, int]]]:
+    rest: list[Family] = []
+    found: list[tuple[Family, int]] = []
+    for family in families:
+        sign = _alias_sign(family.residual)
+        if sign is None:
+            rest.append(family)
+        else:
+            found.append((family, sign))
+    return rest, found
+
+
+def _kept(edges: _Edges, pairs: Ints) -> list[Family]:
+    """Equations ``k = sign * representative`` for differentiated variables that must not be merged."""
+    k, representative, sign = pairs.reshape(-1, 3).T
+    out: list[Family] = []
+    if not len(k):
+        return out
+    position = {int(v): e for e, v in reversed(list(enumerate(edges.b.tolist())))}
+    position.update({int(v): e for e, v in reversed(list(enumerate(edges.a.tolist())))})
+    at = np.array([position[int(v)] for v in k], np.int64)
+    for s, residual in ((1, add(var(0), neg(var(1)))), (-1, add(var(0), var(1))), (0, var(0))):
+        pick = sign == s
+        columns = [k[pick]] if s == 0 else [k[pick], representative[pick]]
+        rows = np.stack(columns, axis=1)
+        none = np.zeros((len(rows), 0), np.int64)
+        out.append(Family(residual, rows, none, edges.source[at[pick]], edges.ordinal[at[pick]]))
+    return out
+
+
+def _redundant(flat: FlatModel, edges: _Edges, e: int) -> Redundant:
+    a, b, sign = flat.name(int(edges.a[e])), flat.name(int(edges.b[e])), int(edges.sign[e])
+    source = flat.sources[int(edges.source[e])]
+    text = f"{a} = {'0' if sign == 0 else b if sign > 0 else '-' + b}"
+    return Redundant(text, source.component(int(edges.ordinal[e])), str(source.origin))

@@ -1,0 +1,208 @@
+"""The structure check, index reduction and its symbolic side: differentiated families."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..dae.incidence import Incidence
+from ..dae.matching import maximum_matching
+from ..dae.pantelides import StructurallySingular, pantelides, signature_index
+from ..errors import StructureError
+from ..language.flat_model import Bools, Family, FlatModel, canonical
+from ..language.template import Ints
+from ..symbolic.differentiate import differentiate
+from ..symbolic.expr import ONE, ZERO, Expr, var
+from .aliases import Reduced
+from .diagnose import singular
+
+
+class Rows:
+    """Scalar equations of a list of families, numbered through."""
+
+    def __init__(self, families: list[Family]) -> None:
+        self.families = families
+        self.offset = np.concatenate([[0], np.cumsum([f.size for f in families])]).astype(np.int64)
+        self.family_of = np.repeat(np.arange(len(families)), [f.size for f in families])
+
+    def __len__(self) -> int:
+        return int(self.offset[-1])
+
+    def locate(self, row: int) -> tuple[Family, int]:
+        """Family and row within it."""
+        k = int(self.family_of[row])
+        return self.families[k], int(row - self.offset[k])
+
+    def incidence(self, n_columns: int, keep: Bools) -> Incidence:
+        """Which of the variables in `keep` occur in which equation."""
+        rows: list[Ints] = []
+        columns: list[Ints] = []
+        for k, family in enumerate(self.families):
+            n, slots = family.var_rows.shape
+            rows.append(np.repeat(np.arange(n) + self.offset[k], slots))
+            columns.append(family.var_rows.ravel())
+        r = np.concatenate([np.zeros(0, np.int64), *rows])
+        c = np.concatenate([np.zeros(0, np.int64), *columns])
+        pick = keep[c]
+        return Incidence.from_coo(r[pick], c[pick], len(self), n_columns)
+
+
+@dataclass(eq=False)
+class IndexReduced:
+    """The model with its hidden constraints.
+
+    Attributes:
+        families: all equations, the differentiated ones after those they come from; `rows` numbers them.
+        unknown: mask of variables and derivatives that remain (extended by those that differentiation brought in).
+        row_derivative: for every row the row of its derivative, or -1.
+        derivative_of, parent: as in `FlatModel`, extended.
+        index: structural index (Pryce 2001).
+        top_assignment: matched column of every row without derivative, -1 for the others.
+    """
+
+    flat: FlatModel
+    families: list[Family]
+    unknown: Bools
+    row_derivative: Ints
+    derivative_of: Ints
+    parent: Ints
+    index: int
+    top_assignment: Ints
+    n_differentiated: int
+
+    @cached_property
+    def rows(self) -> Rows:
+        """Row numbering."""
+        return Rows(self.families)
+
+
+def check_structure(reduced: Reduced) -> None:
+    """Raise StructureError unless there are as many equations as unknowns and none is redundant by itself."""
+    rows = Rows(reduced.families)
+    flat = reduced.flat
+    base = _collapsed(flat)
+    columns = np.unique(base[np.flatnonzero(reduced.unknown)])
+    if len(rows) == len(columns) and not reduced.redundant:
+        return
+    raise singular(reduced, rows, base, columns)
+
+
+def _collapsed(flat: FlatModel) -> Ints:
+    """Base variable of every derivative."""
+    base = np.arange(flat.n_total)
+    for _ in range(64):
+        parent = flat.parent[base]
+        if (parent < 0).all():
+            break
+        base = np.where(parent >= 0, parent, base)
+    return base
+
+
+def reduce_index(reduced: Reduced) -> IndexReduced:
+    """Pantelides' algorithm, then differentiate the families it names.
+
+    Raises:
+        StructureError: the equations cannot be paired with the unknowns.
+    """
+    flat = reduced.flat
+    rows = Rows(reduced.families)
+    graph = rows.incidence(flat.n_total, reduced.unknown)
+    active = np.where(reduced.unknown, flat.derivative_of, -1)
+    try:
+        result = pantelides(graph, active)
+    except StructurallySingular as error:
+        base = _collapsed(flat)
+        raise singular(reduced, rows, base, np.unique(base[np.flatnonzero(reduced.unknown)])) from error
+    n_new = len(result.new_columns)
+    derivative_of = np.concatenate([flat.derivative_of, np.full(n_new, -1, np.int64)])
+    parent = np.concatenate([flat.parent, np.asarray(result.new_columns, np.int64)])
+    derivative_of[np.asarray(result.new_columns, np.int64)] = flat.n_total + np.arange(n_new)
+    unknown = np.concatenate([reduced.unknown, np.ones(n_new, bool)])
+    families, permutation = _differentiated(reduced, rows, np.asarray(result.new_rows, np.int64), derivative_of)
+    row_derivative = np.full(len(permutation), -1, np.int64)
+    parents = np.asarray(result.new_rows, np.int64)
+    row_derivative[permutation[parents]] = permutation[len(rows) + np.arange(len(parents))]
+    assignment = np.full(len(permutation), -1, np.int64)
+    assignment[permutation] = np.asarray(result.assignment)
+    order = np.asarray(result.equation_order)
+    out = IndexReduced(
+        flat, families, unknown, row_derivative, derivative_of, parent, 0, assignment, int((order > 0).sum())
+    )
+    flat.derivative_of, flat.parent = derivative_of, parent
+    _extend(flat, n_new)
+    out.index = _index(reduced, order, derivative_of, unknown)
+    return out
+
+
+def _extend(flat: FlatModel, n: int) -> None:
+    """Attributes for the derivatives that differentiation brought in."""
+    flat.start = np.pad(flat.start, (0, n), constant_values=np.nan)
+    flat.fixed = np.pad(flat.fixed, (0, n), constant_values=-1)
+    flat.nominal = np.pad(flat.nominal, (0, n), constant_values=np.nan)
+    flat.select = np.pad(flat.select, (0, n), constant_values=2)
+
+
+def _index(reduced: Reduced, equation_order: Ints, derivative_of: Ints, unknown: Bools) -> int:
+    base = np.flatnonzero(reduced.unknown & (reduced.flat.parent[: len(reduced.unknown)] < 0))
+    order = np.zeros(len(base), np.int64)
+    at = base.copy()
+    while True:
+        following = derivative_of[at]
+        more = (following >= 0) & unknown[following]
+        if not more.any():
+            break
+        at = np.where(more, following, at)
+        order += more
+    return int(signature_index(equation_order, order)) if len(base) else 0
+
+
+def _differentiated(
+    reduced: Reduced, rows: Rows, new_rows: Ints, derivative_of: Ints
+) -> tuple[list[Family], Ints]:
+    """Families for the differentiated rows, and the new number of every row."""
+    families = list(reduced.families)
+    n = len(rows)
+    family_of = np.concatenate([rows.family_of, np.full(len(new_rows), -1, np.int64)])
+    local = np.concatenate([np.arange(n) - rows.offset[rows.family_of], np.full(len(new_rows), -1, np.int64)])
+    pending = np.arange(len(new_rows))
+    while len(pending):
+        ready = pending[family_of[new_rows[pending]] >= 0]
+        parent_family = family_of[new_rows[ready]]
+        for k in np.unique(parent_family):
+            mine = ready[parent_family == k]
+            source = families[int(k)].select(local[new_rows[mine]])
+            families.append(differentiate_family(source, derivative_of, reduced.flat))
+            family_of[n + mine] = len(families) - 1
+            local[n + mine] = np.arange(len(mine))
+        pending = pending[family_of[n + pending] < 0]
+    offset = np.concatenate([[0], np.cumsum([f.size for f in families])]).astype(np.int64)
+    return families, offset[family_of] + local
+
+
+def differentiate_family(family: Family, derivative_of: Ints, flat: FlatModel) -> Family:
+    """Total time derivative of a family; variables that are constant have no derivative."""
+    k = family.var_rows.shape[1]
+    derivatives = derivative_of[family.var_rows]
+    if (family.par_rows >= flat.n_par).any():
+        i = int(np.flatnonzero((family.par_rows >= flat.n_par).any(axis=1))[0])
+        component, place = flat.equation_place(family, i)
+        raise StructureError(
+            f"the index reduction must differentiate `{flat.equation_text(family, i)}` ({component or flat.model_name}, "
+            f"{place}), but the derivative of an input from outside is not known: give the input as a component of the "
+            "model (a source block), or pass its derivative as an input of its own"
+        )
+
+    def tangent(leaf: Expr) -> Expr:
+        return var(k + leaf.value) if leaf.op == "var" else ONE if leaf.op == "time" else ZERO
+
+    residual = differentiate((family.residual,), tangent)[0]
+    both = np.concatenate([family.var_rows, derivatives], axis=1)
+    form, var_rows, par_rows = canonical(residual, both, family.par_rows)
+    return Family(form, var_rows, par_rows, family.source, family.ordinal)
+
+
+def match_all(graph: Incidence) -> Ints:
+    """Maximum matching (column of every row, -1 if unmatched)."""
+    return np.asarray(maximum_matching(graph))

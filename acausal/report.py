@@ -1,0 +1,199 @@
+"""The compilation report, equations as text, and explanations of numerical findings."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .language.flat_model import Family, FlatModel
+from .passes.schedule import Group
+from .symbolic.expr import Expr
+from .symbolic.printing import to_text
+
+if TYPE_CHECKING:
+    from .system import System
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What the compiler found and did; prints as a table.
+
+    Attributes:
+        variables, equations: declared scalar variables, and equations including those of connections.
+        aliases: variables eliminated as equal (or zero).
+        unknowns: variables and equations that remain.
+        structural_index: 0 = explicit ODE, 1 = algebraic unknowns, 2 and more = hidden constraints (Pryce 2001).
+        differentiated: equations that index reduction differentiated.
+        states, algebraics, invariants: numbers of states, of algebraic unknowns of the solver, of retained constraints.
+        state_names, torn: names of the states and of the algebraic unknowns.
+        blocks: size of a block of simultaneous equations to how many there are.
+        linear_systems: sizes of the linear systems solved inside the right-hand side.
+        families: distinct kernels, and the number of groups they are evaluated in.
+        levels: length of the longest chain of blocks.
+        seconds: time of each pass [s].
+    """
+
+    model: str
+    variables: int
+    equations: int
+    aliases: int
+    unknowns: int
+    structural_index: int
+    differentiated: int
+    states: int
+    algebraics: int
+    invariants: int
+    state_names: tuple[str, ...]
+    torn: tuple[str, ...]
+    blocks: dict[int, int]
+    linear_systems: dict[int, int]
+    families: int
+    groups: int
+    levels: int
+    seconds: dict[str, float]
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain data."""
+        return asdict(self)
+
+    def __str__(self) -> str:
+        blocks = ", ".join(f"{n} of size {size}" for size, n in self.blocks.items())
+        linear = ", ".join(f"{n} of size {size}" for size, n in self.linear_systems.items()) or "none"
+        rows = [
+            ("declared", f"{self.variables} variables, {self.equations} equations"),
+            ("alias elimination", f"{self.aliases} eliminated, {self.unknowns} unknowns remain"),
+            ("structural index", f"{self.structural_index} ({self.differentiated} equations differentiated)"),
+            ("states", f"{self.states}: {_few(self.state_names)}"),
+            ("algebraic unknowns", f"{self.algebraics}" + (f": {_few(self.torn)}" if self.torn else "")),
+            ("invariants", f"{self.invariants}"),
+            ("blocks", blocks),
+            ("linear systems", linear),
+            ("kernels", f"{self.families} in {self.groups} groups, {self.levels} levels"),
+            ("seconds", ", ".join(f"{k} {v:.3g}" for k, v in self.seconds.items())),
+        ]
+        width = max(len(k) for k, _ in rows)
+        return "\n".join([self.model, "-" * len(self.model), *(f"{k:<{width}}  {v}" for k, v in rows)])
+
+    __repr__ = __str__
+
+
+def _few(names: tuple[str, ...], n: int = 16) -> str:
+    return ", ".join(names[:n]) + (f", ... ({len(names)})" if len(names) > n else "")
+
+
+def make_report(system: System) -> Report:
+    """Collect the figures of a compilation."""
+    stages, low = system.stages, system.lowered
+    schedule = stages.schedule
+    linear = Counter(g.kernel.size and len(g.kernel.matrix) for g in schedule.groups for _ in range(g.size) if g.kernel.matrix)
+    kernels = {id(g.kernel) for g in schedule.groups}
+    return Report(
+        model=system.name,
+        variables=stages.counts["variables"],
+        equations=stages.counts["equations"],
+        aliases=int((~stages.reduced.unknown).sum()),
+        unknowns=int(stages.reduced.unknown.sum()),
+        structural_index=stages.index.index,
+        differentiated=stages.index.n_differentiated,
+        states=low.n_x,
+        algebraics=low.n_w,
+        invariants=low.n_g,
+        state_names=system.states,
+        torn=system.algebraics,
+        blocks=dict(sorted(schedule.block_sizes.items())),
+        linear_systems=dict(sorted(linear.items())),
+        families=len(kernels),
+        groups=len(schedule.groups),
+        levels=max((g.level for g in schedule.groups), default=-1) + 1,
+        seconds=dict(stages.seconds),
+    )
+
+
+def equation_lines(system: System, form: str, latex: bool) -> list[str]:
+    """Equations of one stage as text."""
+    flat = system.stages.flat
+    if latex:
+        from .symbolic.latex import equation_latex
+
+        return [equation_latex(line) for line in equation_lines(system, form, False)]
+    if form == "flat":
+        lines = [flat.equation_text(f, k) for f in flat.families for k in range(f.size)]
+        signs = {1: "", -1: "-"}
+        triples = zip(flat.alias_a, flat.alias_b, flat.alias_sign, strict=True)
+        lines += [f"{flat.name(int(a))} = {signs[int(s)]}{flat.name(int(b))}" for a, b, s in triples]
+        return lines + [f"{flat.name(int(z))} = 0" for z in flat.zero]
+    if form == "reduced":
+        return [flat.equation_text(f, k) for f in system.stages.index.families for k in range(f.size)]
+    if form == "sorted":
+        return [line for g in system.stages.schedule.groups for line in _sorted_lines(flat, g)] + [
+            f"0 = {flat.equation_text(f, k)}    (invariant)" for f in system.stages.schedule.invariants for k in range(f.size)
+        ]
+    raise ValueError(f"form={form!r} is not one of 'sorted', 'flat', 'reduced'")
+
+
+def _sorted_lines(flat: FlatModel, group: Group) -> list[str]:
+    lines: list[str] = []
+    for k in range(group.size):
+        text = _namer(flat, group.var_rows[k], group.par_rows[k])
+        kernel = group.kernel
+        names = ", ".join(flat.name(int(group.var_rows[k, t])) for t in kernel.tears)
+        if kernel.matrix:
+            lines.append(f"solve a linear system of {len(kernel.matrix)} for {names}")
+        for residual in kernel.residuals:
+            lines.append(f"0 = {text(residual)}    (iterates {names})")
+        lines += [f"{flat.name(int(group.var_rows[k, u]))} := {text(e)}" for u, e in kernel.steps]
+    return lines
+
+
+def _namer(flat: FlatModel, variables: Any, parameters: Any) -> Any:
+    def leaf(node: Expr) -> str:
+        if node.op == "var":
+            return flat.name(int(variables[node.value]))
+        if node.op == "par":
+            return flat.parameter_name(int(parameters[node.value]))
+        return "time"
+
+    return lambda e: to_text(e, leaf)
+
+
+def explain_initial(system: System, x0: np.ndarray, w0: np.ndarray, left: np.ndarray) -> str:
+    """Why an initialization failed: the conditions that cannot be met, with their sources."""
+    problem, flat, low = system.initial, system.stages.flat, system.lowered
+    entries: list[tuple[float, str]] = []
+    texts: list[str] = []
+    if low.n_w:
+        texts += [f"the equation that determines `{n}`" for n in system.algebraics]
+    texts += [_place(flat, f, k) for f in system.stages.schedule.invariants for k in range(f.size)]
+    texts += [f"`{flat.name(int(v))}` has a fixed start value" for v in problem.targets]
+    extra = [_place(flat, f, k) for f in problem.families for k in range(f.size)]
+    while len(texts) + len(extra) < len(left):
+        texts.append("a value given as simulate(initial={...})")
+    texts += extra
+    if len(left):
+        entries = sorted(
+            ((float(r) if np.isfinite(r) else np.inf, t) for r, t in zip(left, texts, strict=False)), key=lambda e: -e[0]
+        )
+    lines = [f"Initialization of `{system.name}` found no consistent start."]
+    shown = [e for e in entries if e[0] > 1e-8][:8]
+    if shown:
+        lines.append("Conditions that are not met (distance relative to the scale of the unknowns):")
+        lines += [f"    {r:9.2e}  {t}" for r, t in shown]
+    bad = [n for n, v in zip((*system.states, *system.algebraics), np.concatenate([x0, w0]), strict=True) if not np.isfinite(v)]
+    if bad:
+        lines.append(f"Not finite at the start: {', '.join(bad[:8])}")
+    fixed = [n for n, f in zip(system.states, problem.fixed, strict=True) if f]
+    if fixed:
+        lines.append(f"Held exactly: {_few(tuple(fixed))}")
+    lines.append(
+        "Try: fewer `fixed=True` start values where the conditions contradict each other, or better guesses (start values) "
+        "for the variables named here."
+    )
+    return "\n".join(lines)
+
+
+def _place(flat: FlatModel, family: Family, row: int) -> str:
+    component, place = flat.equation_place(family, row)
+    return f"{flat.equation_text(family, row)}    {component or '(model)'}  {place}"

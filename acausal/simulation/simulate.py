@@ -1,0 +1,372 @@
+"""`simulate`: builds the solve for a system, compiles it once, runs it, and says what went wrong where."""
+
+from __future__ import annotations
+
+import functools
+import time
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import diffrax
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import Array
+
+from acausal.errors import SimulationError
+
+from .cache import cache_of
+from .failure import explain
+from .jit import choose_fusion, compiler_options, ensure_x64, inside_jit
+from .linear_solvers import AbstractLinearSolver, DenseLU
+from .lowered import Lowered, dimensions
+from .projection import Projected, WithAlgebraic, project
+from .rodas5p import Rodas5P
+from .solution import Solution
+from .sparse import DENSE_BELOW, sparse_linear_solver
+
+POINTS = 501
+"""Output points when `saveat` is not given."""
+MAX_STEPS = 1_000_000
+_RESULTS = (
+    "successful", "event_occurred", "max_steps_reached", "dt_min_reached", "max_steps_rejected",
+    "nonlinear_max_steps_reached", "nonlinear_divergence", "singular", "internal_error",
+)  # fmt: skip
+
+
+def simulate(
+    system: Any,
+    t1: Any,
+    *,
+    t0: Any = 0.0,
+    parameters: Mapping[str, Any] | None = None,
+    initial: Mapping[str, Any] | None = None,
+    inputs: Mapping[str, Any] | None = None,
+    saveat: Any = None,
+    rtol: Any = 1e-6,
+    atol: Any = None,
+    solver: diffrax.AbstractSolver[Any] | None = None,
+    engine: str = "auto",
+    events: Any = True,
+    max_steps: int | None = None,
+    throw: bool = True,
+    progress: bool = False,
+    dt: Any = None,
+    stepsize_controller: diffrax.AbstractStepSizeController[Any, Any] | None = None,
+    adjoint: diffrax.AbstractAdjoint | None = None,
+) -> Solution:
+    """Solves a system from `t0` to `t1` with the diffrax engine.
+
+    The program is compiled once for each kind of solve (solver, kind and number of output points, options); other
+    parameter values, start values, times and tolerances reuse it. It works under `jax.jit`, `vmap` and `grad`,
+    and then neither checks nor times anything.
+
+    Args:
+        system: offers `lowered`, `initialize(t0, parameters, initial) -> (x0, w0, p)`, names, and optionally
+            `with_inputs(inputs) -> Lowered`.
+        t1: end time [s]; before `t0` to integrate backwards.
+        t0: start time [s].
+        parameters: values of some parameters by dotted name.
+        initial: start values of some variables by dotted name.
+        inputs: values of the inputs by dotted name, in the forms that the system takes.
+        saveat: output times: `None` for 501 equidistant points, a number of points, an array of times, or a
+            `diffrax.SaveAt` (steps, ends or times).
+        rtol: relative tolerance.
+        atol: absolute tolerance as a fraction of each variable's nominal value, a number or shape (n_x,);
+            default `rtol`.
+        solver: a diffrax solver; default `Rodas5P()`, which solves states and tearing variables together. Any
+            other solver integrates the states, and the tearing variables are solved in the vector field.
+        engine: `"diffrax"`, or `"auto"`.
+        events: `True`, `False`, or a `diffrax.Event`.
+        max_steps: most steps, taken and rejected together.
+        throw: raise `SimulationError` when the solve fails; otherwise the solution ends early and says so in `result`.
+        progress: show a progress bar (not under JAX transformations).
+        dt: step [s] of a fixed-step solve (`RK4()`), or the first step of an adaptive one.
+        stepsize_controller: default `diffrax.PIDController` with the tolerances, or constant steps for a solver
+            without an error estimate.
+        adjoint: how diffrax differentiates; `diffrax.ForwardMode()` for `jax.jvp` and `jax.jacfwd`.
+
+    Returns:
+        The solution.
+
+    Raises:
+        SimulationError: the solve failed; names the time, the variable and, if it is known, the equation.
+    """
+    if engine not in ("auto", "diffrax"):
+        raise SimulationError(f"There is no engine {engine!r} here; take 'diffrax' or 'auto'.")
+    ensure_x64()
+    lowered: Lowered = system.lowered if not inputs else system.with_inputs(inputs)
+    x0, w0, p = system.initialize(t0, parameters, initial)
+    n_x, _, _ = dimensions(lowered)
+    solver = _with_jacobian(Rodas5P(), lowered) if solver is None else solver
+    points, kind = _output(saveat, t0, t1)
+    settings = _Settings(
+        solver=solver,
+        saveat=kind,
+        controller=stepsize_controller,
+        has_dt=dt is not None,
+        adjoint=diffrax.RecursiveCheckpointAdjoint() if adjoint is None else adjoint,
+        event=None if isinstance(events, bool) or events is None else events,
+        max_steps=MAX_STEPS if max_steps is None else max_steps,
+        progress=False,
+        throw=False,
+    )
+    relative = jnp.asarray(rtol, float)
+    absolute = jnp.broadcast_to(relative if atol is None else jnp.asarray(atol, float), (n_x,))
+    first = jnp.asarray(0.0 if dt is None else dt, float)
+    arguments = (jnp.asarray(t0, float), jnp.asarray(t1, float), x0, w0, p, relative, absolute, points, first)
+
+    if inside_jit() or any(isinstance(a, jax.core.Tracer) for a in jax.tree.leaves(arguments)):
+        run, dynamic, _ = _program(lowered, settings.replace(throw=throw))
+        t, x, w, counts, _, _ = run(dynamic, *arguments)
+        return Solution(system, t, x, w, p, stats={**_named(counts, solver), "solver": _name(solver)}, lowered=lowered)
+
+    settings = settings.replace(progress=progress)
+    run, dynamic, key = _program(lowered, settings)
+    compiled, compile_seconds = _compiled(lowered, key, run, (dynamic, *arguments))
+    begin = time.perf_counter()
+    t, x, w, counts, code, last = jax.block_until_ready(compiled(dynamic, *arguments))
+    run_seconds = time.perf_counter() - begin
+    t, x, w = (np.asarray(a) for a in (t, x, w))
+    kept = np.isfinite(t)
+    if not kept.all():
+        t, x, w = t[kept], x[kept], w[kept]
+    result = _result_name(int(code))
+    stats = {k: int(v) for k, v in _named(counts, solver).items()}
+    stats |= {"compile_seconds": compile_seconds, "run_seconds": run_seconds}
+    stats |= {"solver": _name(solver), "t_end": float(last[0])}
+    solution = Solution(system, t, x, w, p, stats=stats, result=result, lowered=lowered)
+    if throw and result not in ("successful", "event_occurred"):
+        raise SimulationError(explain(system, lowered, result, stats, last, p, float(t1), settings.max_steps))
+    return solution
+
+
+class _Settings(eqx.Module):
+    """What a compiled solve is made for; arrays in it are arguments of the program, the rest is its key."""
+
+    solver: diffrax.AbstractSolver[Any]
+    saveat: Any
+    controller: Any
+    adjoint: Any
+    event: Any
+    has_dt: bool
+    max_steps: int
+    progress: bool
+    throw: bool
+
+    def replace(self, **changes: Any) -> _Settings:
+        return _Settings(**{**{k: getattr(self, k) for k in self.__dataclass_fields__}, **changes})
+
+
+def _output(saveat: Any, t0: Any, t1: Any) -> tuple[Any, Any]:
+    """Times at which to save (or none) and what kind of output this is."""
+    if isinstance(saveat, diffrax.SaveAt):
+        if saveat.dense or isinstance(saveat.subs, (list, tuple, dict)):
+            raise SimulationError("`saveat` may have `t0`, `t1`, `ts` and `steps`; `dense` and several `subs` are not used here.")
+        return saveat.subs.ts, ("diffrax", saveat.subs.t0, saveat.subs.t1, saveat.subs.steps)
+    if saveat is None:
+        return None, ("points", POINTS)
+    if isinstance(saveat, int):
+        return None, ("points", saveat)
+    return jnp.asarray(saveat, float), ("times",)
+
+
+def _program(lowered: Lowered, settings: _Settings) -> tuple[Callable[..., Any], Any, Any]:
+    """The jitted solve for these settings, the arrays in them, and the key of the program."""
+    dynamic, static = eqx.partition(settings, eqx.is_array)
+    leaves, structure = jax.tree.flatten(static)
+    shapes = tuple((a.shape, str(a.dtype)) for a in jax.tree.leaves(dynamic))
+    key = ("solve", structure, tuple(leaves), shapes)
+    cache = cache_of(lowered)
+    if key not in cache:
+        cache[key] = jax.jit(functools.partial(_solve, lowered, static))
+    return cache[key], dynamic, key
+
+
+def _compiled(lowered: Lowered, key: Any, run: Any, arguments: tuple[Any, ...]) -> tuple[Any, float]:
+    """The executable for the shapes of the arguments, and the seconds that it took to make (0 if it was there)."""
+    cache = cache_of(lowered)
+    shapes = tuple((jnp.shape(a), str(jnp.result_type(a))) for a in jax.tree.leaves(arguments))
+    full = ("executable", key, shapes)
+    if full in cache:
+        return cache[full], 0.0
+    begin = time.perf_counter()
+    traced = run.trace(*arguments)
+    options = compiler_options(choose_fusion(traced.jaxpr))
+    cache[full] = traced.lower().compile(compiler_options=options)
+    return cache[full], time.perf_counter() - begin
+
+
+def _solve(
+    lowered: Lowered, static: _Settings, dynamic: _Settings, t0: Array, t1: Array, x0: Array, w0: Array, p: Array,
+    rtol: Array, atol: Array, points: Array | None, dt: Array,
+) -> tuple[Any, ...]:  # fmt: skip
+    """The pure solve: times, states, tearing variables, counts, result code and the last point."""
+    settings = eqx.combine(dynamic, static)
+    n_x, n_w, n_g = dimensions(lowered)
+    together = isinstance(settings.solver, Rodas5P)
+    x_nominal, w_nominal = jnp.asarray(lowered.x_nominal, float), jnp.asarray(lowered.w_nominal, float)
+    if together:
+        solver, field, y0, args = _index_one(lowered, settings.solver, x0, w0, p)
+        scale = jnp.concatenate([atol * x_nominal, rtol * w_nominal])
+    else:
+        solver, field, y0, args = _states_only(lowered, settings.solver, x0, w0, p)
+        scale = atol * x_nominal
+    adaptive = isinstance(settings.solver, diffrax.AbstractAdaptiveSolver)
+    controller = settings.controller
+    if controller is None and adaptive:
+        smallest = 10 * jnp.finfo(float).eps * jnp.maximum(jnp.abs(t0), jnp.abs(t1))
+        controller = diffrax.PIDController(
+            rtol=rtol, atol=scale, pcoeff=0.4, icoeff=0.3, dtmin=smallest, force_dtmin=False
+        )
+    elif controller is None:
+        controller = diffrax.ConstantStepSize()
+    if not settings.has_dt:
+        if isinstance(controller, diffrax.ConstantStepSize):
+            name = _name(settings.solver)
+            raise SimulationError(f"`{name}` takes fixed steps here: give the step, `simulate(..., dt=1e-3)`.")
+        dt = _first_step(lowered, t0, t1, x0, w0, p, rtol, atol * x_nominal)
+    dt = jnp.where(t1 < t0, -jnp.abs(dt), jnp.abs(dt))
+    if isinstance(controller, diffrax.StepTo):
+        dt = None
+
+    where: tuple[Any, ...] = settings.saveat
+    if where[0] == "points":
+        points = jnp.linspace(t0, t1, where[1])
+    if where[0] == "diffrax":
+        sub = diffrax.SubSaveAt(t0=where[1], t1=where[2], ts=points, steps=where[3])
+    else:
+        sub = diffrax.SubSaveAt(ts=points)
+    saveat = diffrax.SaveAt(subs=[sub, diffrax.SubSaveAt(t1=True)])
+    solved = diffrax.diffeqsolve(
+        diffrax.ODETerm(field), solver, t0, t1, dt, y0, args, saveat=saveat, stepsize_controller=controller,
+        max_steps=settings.max_steps, adjoint=settings.adjoint, event=settings.event, throw=settings.throw,
+        progress_meter=diffrax.TextProgressMeter() if settings.progress else diffrax.NoProgressMeter(),
+    )  # fmt: skip
+    assert solved.ts is not None and solved.ys is not None
+    t, y = solved.ts[0], solved.ys[0]
+    t_last, y_last = solved.ts[1][0], solved.ys[1][0]
+    if together:
+        x, w = y[:, :n_x], y[:, n_x:]
+        last = (t_last, y_last[:n_x], y_last[n_x:])
+    else:
+        x, w = y, _follow(lowered, t, y, w0, p) if n_w else jnp.zeros((y.shape[0], 0), y.dtype)
+        last = (t_last, y_last, w[-1] if n_w else w0)
+    counts = [solved.stats[f"num_{k}"] for k in ("steps", "accepted_steps", "rejected_steps")]
+    return t, x, w, counts, _code(solved.result), last
+
+
+def _index_one(lowered: Lowered, solver: Rodas5P, x0: Array, w0: Array, p: Array) -> tuple[Any, Any, Array, Any]:
+    """States and tearing variables as one vector z with a mass matrix."""
+    n_x, n_w, n_g = dimensions(lowered)
+
+    @jax.jit
+    def field(t: Any, z: Array, p: Array) -> Array:
+        return jnp.concatenate(lowered.derivatives(t, z[:n_x], z[n_x:], p))
+
+    if n_w and solver.mass is None:
+        mass = jnp.concatenate([jnp.ones(n_x), jnp.zeros(n_w)])
+        solver = eqx.tree_at(lambda s: s.mass, solver, mass, is_leaf=lambda v: v is None)
+    if n_g and solver.project is None:
+
+        def onto(t: Any, z: Array, p: Array) -> Array:
+            return jnp.concatenate(project(lowered, t, z[:n_x], z[n_x:], p))
+
+        solver = eqx.tree_at(lambda s: s.project, solver, onto, is_leaf=lambda v: v is None)
+    return solver, field, jnp.concatenate([x0, w0]), p
+
+
+def _states_only(lowered: Lowered, solver: Any, x0: Array, w0: Array, p: Array) -> tuple[Any, Any, Array, Any]:
+    """The states alone; tearing variables are solved in the vector field, from a guess that goes along."""
+    _, n_w, n_g = dimensions(lowered)
+
+    @jax.jit
+    def field(t: Any, x: Array, args: tuple[Array, Array]) -> Array:
+        p, guess = args
+        w = lowered.solve_algebraic(t, x, guess, p) if n_w else guess
+        return lowered.derivatives(t, x, w, p)[0]
+
+    if n_g:
+
+        def onto(t: Any, x: Array, args: tuple[Array, Array]) -> Array:
+            p, guess = args
+            w = lowered.solve_algebraic(t, x, guess, p) if n_w else guess
+            return project(lowered, t, x, w, p)[0]
+
+        solver = Projected(solver, onto)
+    if n_w:
+        solver = WithAlgebraic(solver, lowered.solve_algebraic)
+    return solver, field, x0, (p, w0)
+
+
+def _follow(lowered: Lowered, t: Array, x: Array, w0: Array, p: Array) -> Array:
+    """Tearing variables at the output points, each from the one before, shape (n_t, n_w)."""
+
+    def step(w: Array, point: tuple[Array, Array]) -> tuple[Array, Array]:
+        found = lowered.solve_algebraic(point[0], point[1], w, p)
+        good = jnp.all(jnp.isfinite(found))
+        return jnp.where(good, found, w), found
+
+    return jax.lax.scan(step, w0, (t, x))[1]
+
+
+def _first_step(
+    lowered: Lowered, t0: Array, t1: Array, x0: Array, w0: Array, p: Array, rtol: Array, atol: Array
+) -> Array:
+    """A cautious first step: one hundredth of the time in which the state would change by its own size.
+
+    Source: Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, II.4, steps a and b of the
+    starting step size, of the states alone. The controller raises it tenfold a step where it can.
+    """
+    span = jnp.abs(t1 - t0)
+    rate = lowered.derivatives(t0, x0, w0, p)[0]
+    scale = atol + rtol * jnp.abs(x0)
+    size, speed = (jnp.sqrt(jnp.mean((v / scale) ** 2)) for v in (x0, rate)) if x0.shape[0] else (0.0, 0.0)
+    small = ~((size > 1e-5) & (speed > 1e-5))
+    guess = jnp.where(small, 1e-6 * span, 0.01 * size / jnp.where(small, 1.0, speed))
+    return jax.lax.stop_gradient(jnp.clip(guess, 1e-12 * span, 1e-3 * span))
+
+
+def _with_jacobian(solver: Rodas5P, lowered: Lowered) -> Rodas5P:
+    """The solver with the linear solver that suits the size: coloured and sparse from `DENSE_BELOW` unknowns on."""
+    cache = cache_of(lowered)
+    if "linear_solver" not in cache:
+        cache["linear_solver"] = _linear_solver(lowered)
+    return Rodas5P(linear_solver=cache["linear_solver"]) if isinstance(solver.linear_solver, DenseLU) else solver
+
+
+def _linear_solver(lowered: Lowered) -> AbstractLinearSolver:
+    n_x, n_w, _ = dimensions(lowered)
+    if n_x + n_w < DENSE_BELOW:
+        return DenseLU()
+    from acausal.dae.coloring import color_columns
+
+    csr = lowered.sparsity().tocsr()
+    return sparse_linear_solver(csr, np.asarray(color_columns(csr)))
+
+
+def _named(counts: list[Any], solver: Any) -> dict[str, Any]:
+    """Counts by name; evaluations of the vector field and Jacobians where the solver's are known."""
+    steps, accepted, rejected = counts
+    named = {"steps": steps, "accepted": accepted, "rejected": rejected}
+    if isinstance(solver, Rodas5P):
+        named |= {"rhs": 8 * steps, "jacobians": steps}
+    return named
+
+
+def _name(solver: Any) -> str:
+    return type(solver).__name__
+
+
+def _code(result: diffrax.RESULTS) -> Array:
+    """Position of a result in `_RESULTS`, or -1."""
+    code = jnp.asarray(-1)
+    for i, name in enumerate(_RESULTS):
+        code = jnp.where(result == getattr(diffrax.RESULTS, name), i, code)
+    return code
+
+
+def _result_name(code: int) -> str:
+    """Name of a diffrax result."""
+    return _RESULTS[code] if code >= 0 else "solver_failed"

@@ -1,0 +1,285 @@
+"""The result of a simulation: every variable of the model, by name or by object, computed when asked for."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from acausal.errors import UnknownNameError, nearest
+
+from .cache import ById, cache_of
+from .jit import jit
+from .lowered import Lowered
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+KEEP_ALL = 4_000_000
+"""Values of all variables up to which they are computed at once and kept; beyond, each request computes what it returns."""
+
+
+@jax.tree_util.register_pytree_node_class
+class Solution:
+    """Trajectories of all variables of a model.
+
+    `solution["cylinder.chamber.p"]` or `solution[crane.cylinder.chamber.p]` is an array of shape (n_t,); an array
+    of components, `solution["cells.v"]`, gives (n_t, n). Inside JAX transformations the values are traced arrays.
+
+    Attributes:
+        system: the system that was simulated.
+        t: times [s], shape (n_t,).
+        x: states, shape (n_t, n_x).
+        w: tearing variables of numerically solved blocks, shape (n_t, n_w).
+        p: parameters, shape (n_p,).
+        stats: counts (`steps`, `accepted`, `rejected`, `rhs`, `jacobians`), `compile_seconds`, `run_seconds`,
+            `solver`, and where the solve ended: `t_end`.
+        result: `"successful"`, or what ended the solve early.
+        events: the events that occurred, in order.
+    """
+
+    def __init__(
+        self,
+        system: Any,
+        t: Any,
+        x: Any,
+        w: Any,
+        p: Any,
+        stats: Mapping[str, Any] | None = None,
+        result: str = "successful",
+        events: tuple[Any, ...] = (),
+        lowered: Lowered | None = None,
+    ) -> None:
+        self.system = system
+        self.t, self.x, self.w, self.p = t, x, w, p
+        self.stats: dict[str, Any] = dict(stats or {})
+        self.result = result
+        self.events = events
+        self.lowered: Lowered = system.lowered if lowered is None else lowered
+        self._all: Any = None
+
+    def tree_flatten(self) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+        """Leaves: times, trajectories, parameters and the counts that are arrays."""
+        numbers = {k: v for k, v in self.stats.items() if isinstance(v, jax.Array)}
+        fixed = tuple((k, v) for k, v in self.stats.items() if k not in numbers and k not in _RUN_ONLY)
+        children = (self.t, self.x, self.w, self.p, numbers, self.events)
+        return children, (ById(self.system), fixed, self.result, ById(self.lowered))
+
+    @classmethod
+    def tree_unflatten(cls, aux: tuple[Any, ...], children: tuple[Any, ...]) -> Solution:
+        system, fixed, result, lowered = aux
+        t, x, w, p, numbers, events = children
+        made = object.__new__(cls)
+        made.system, made.lowered, made.result, made.events = system.thing, lowered.thing, result, events
+        made.t, made.x, made.w, made.p = t, x, w, p
+        made.stats = {**dict(fixed), **numbers}
+        made._all = None
+        return made
+
+    # ------------------------------------------------------------------ values
+
+    def __getitem__(self, key: Any) -> Any:
+        """Values of a variable, shape (n_t,), or of an array of variables, shape (n_t, n).
+
+        Args:
+            key: dotted name, a variable object of the model, or a list of either (stacked along the last axis).
+
+        Raises:
+            UnknownNameError: the model has no such variable; the nearest names are given.
+        """
+        if isinstance(key, (list, tuple)):
+            return self._stack([self[k] for k in key])
+        if isinstance(key, str):
+            column = _state_columns(self.system).get(key)
+            if column is not None:
+                return self._out(self.x[..., column])
+        indices, sign = self._locate(key)
+        values = self._values(indices)
+        return self._out(values if isinstance(sign, int) and sign == 1 else values * sign)
+
+    def __contains__(self, key: Any) -> bool:
+        try:
+            self._locate(key)
+        except UnknownNameError:
+            return False
+        return True
+
+    def _locate(self, key: Any) -> tuple[Any, Any]:
+        """Positions in the vector of all variables (an int or an integer array) and the sign of an alias."""
+        try:
+            found = self.system.index_of(key)
+        except KeyError as error:
+            if isinstance(error, UnknownNameError):
+                raise
+            name = label(key)
+            raise UnknownNameError(f"The model has no variable `{name}`.{nearest(name, self.names)}") from None
+        return found if isinstance(found, tuple) else (found, 1)
+
+    def _values(self, indices: Any) -> Any:
+        if self._traced or self.x.ndim != 2:
+            if self.x.ndim != 2:
+                raise ValueError("Take a single solution out of a batch first: `jax.tree.map(lambda a: a[0], solution)`.")
+            return _observe(self.lowered, jnp.asarray(indices), self.t, self.x, self.w, self.p)
+        if self._all is None and self._size <= KEEP_ALL:
+            everything = jnp.arange(self._n_all)
+            self._all = np.asarray(_observe(self.lowered, everything, self.t, self.x, self.w, self.p))
+        if self._all is not None:
+            return self._all[:, indices]
+        return _observe(self.lowered, jnp.asarray(indices), self.t, self.x, self.w, self.p)
+
+    @functools.cached_property
+    def _n_all(self) -> int:
+        shape = jax.eval_shape(self.lowered.observe, self.t[0], self.x[0], self.w[0], self.p)
+        return shape.shape[0]
+
+    @property
+    def _size(self) -> int:
+        return len(self.t) * self._n_all
+
+    @property
+    def _traced(self) -> bool:
+        return any(isinstance(leaf, jax.core.Tracer) for leaf in (self.t, self.x, self.w, self.p))
+
+    def _out(self, values: Any) -> Any:
+        return values if isinstance(values, jax.core.Tracer) else np.asarray(values)
+
+    def _stack(self, columns: list[Any]) -> Any:
+        columns = [c if c.ndim == 2 else c[:, None] for c in columns]
+        return (jnp if any(isinstance(c, jax.core.Tracer) for c in columns) else np).concatenate(columns, axis=1)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all variables: states, algebraic variables, observed ones."""
+        system = self.system
+        return (*system.states, *system.algebraics, *system.observed)
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def __repr__(self) -> str:
+        if self._traced or self.x.ndim != 2:
+            return f"<Solution, {self.x.shape} states>"
+        span = f"{self.t[0]:g} to {self.t[-1]:g} s, {len(self.t)} points" if len(self.t) else "empty"
+        steps = self.stats.get("steps")
+        return f"<Solution {span}, {self.x.shape[1]} states, {steps} steps, {self.result}>"
+
+    # ------------------------------------------------------------------ export
+
+    def to_dataframe(self, names: Iterable[Any] | None = None) -> pd.DataFrame:
+        """A pandas frame, index `t` [s], one column a variable (an array variable: one column an element).
+
+        Args:
+            names: variables to take; default all. Units and descriptions are in `frame.attrs`.
+        """
+        import pandas as pd
+
+        columns: dict[str, Any] = {}
+        units: dict[str, str] = {}
+        docs: dict[str, str] = {}
+        for key in self.names if names is None else names:
+            values, name = self[key], label(key)
+            units[name], docs[name] = self.describe(key)
+            if values.ndim == 1:
+                columns[name] = values
+            else:
+                columns.update({f"{name}[{i}]": values[:, i] for i in range(values.shape[1])})
+        frame = pd.DataFrame(columns, index=pd.Index(np.asarray(self.t), name="t"))
+        frame.attrs = {"units": {"t": "s", **units}, "docs": docs}
+        return frame
+
+    def to_xarray(self, names: Iterable[Any] | None = None) -> xr.Dataset:
+        """An xarray data set over the coordinate `t` [s]; `units` and `long_name` are attributes of each variable."""
+        import xarray as xr
+
+        data: dict[str, Any] = {}
+        for key in self.names if names is None else names:
+            values, name = self[key], label(key)
+            unit, doc = self.describe(key)
+            dims = ("t",) if values.ndim == 1 else ("t", f"{name} index")
+            data[name] = (dims, values, {"units": unit, "long_name": doc or name})
+        time = ("t", np.asarray(self.t), {"units": "s", "long_name": "time"})
+        return xr.Dataset(data, coords={"t": time})
+
+    def to_csv(self, path: str | Path, names: Iterable[Any] | None = None) -> Path:
+        """Writes `t` and the variables as comma-separated values with a header of names; returns the path."""
+        path = Path(path)
+        self.to_dataframe(names).to_csv(path)
+        return path
+
+    def describe(self, key: Any) -> tuple[str, str]:
+        """Unit and description of a variable, empty where the model gives none."""
+        describe = getattr(self.system, "describe", None)
+        found = describe(key) if describe is not None else None
+        return (found[0] or "", found[1] or "") if found else ("", "")
+
+    def plot(self, *names: Any, ax: Any = None, **style: Any) -> Any:
+        """Plots variables over time: one axis a unit, named in the legend, units on the axes.
+
+        Args:
+            names: names or variable objects; default the states.
+            ax: matplotlib axis to draw on, for variables of one unit; default a new figure.
+            style: passed to `Axes.plot`.
+
+        Returns:
+            The figure.
+        """
+        from matplotlib import pyplot
+
+        groups: dict[str, list[Any]] = {}
+        for key in names or self.system.states:
+            groups.setdefault(self.describe(key)[0], []).append(key)
+        if ax is None:
+            figure, axes = pyplot.subplots(
+                len(groups), 1, sharex=True, squeeze=False, figsize=(8, 1 + 2.2 * len(groups)), layout="constrained"
+            )
+            axes = list(axes[:, 0])
+        elif len(groups) > 1:
+            raise ValueError(f"One `ax` is for one unit; these variables have the units {', '.join(map(repr, groups))}.")
+        else:
+            figure, axes = ax.figure, [ax]
+        for axis, (unit, keys) in zip(axes, groups.items(), strict=True):
+            for key in keys:
+                values, name = self[key], label(key)
+                lines = [name] if values.ndim == 1 else [f"{name}[{i}]" for i in range(values.shape[1])]
+                axis.plot(np.asarray(self.t), values, label=lines if len(lines) > 1 else lines[0], **style)
+            axis.set_ylabel(f"[{unit}]" if unit else "")
+            axis.grid(True, alpha=0.3)
+            axis.legend(loc="best", fontsize="small")
+        axes[-1].set_xlabel("t [s]")
+        return figure
+
+
+_RUN_ONLY = ("compile_seconds", "run_seconds")
+
+
+def label(key: Any) -> str:
+    """The name under which a variable is shown."""
+    return key if isinstance(key, str) else str(getattr(key, "name", key))
+
+
+def _state_columns(system: Any) -> dict[str, int]:
+    """Column of each state, kept with the tuple of names it was made from."""
+    return _columns(tuple(system.states))
+
+
+@functools.lru_cache(maxsize=16)
+def _columns(names: tuple[str, ...]) -> dict[str, int]:
+    return {name: column for column, name in enumerate(names)}
+
+
+def _observe(lowered: Lowered, indices: Any, t: Any, x: Any, w: Any, p: Any) -> Any:
+    """Variables at `indices` over all times, shape (n_t, *indices.shape), without keeping the others."""
+    cache = cache_of(lowered)
+    if "observe" not in cache:
+
+        def values(indices: Any, t: Any, x: Any, w: Any, p: Any) -> Any:
+            return jax.lax.map(lambda point: lowered.observe(*point, p)[indices], (t, x, w))
+
+        cache["observe"] = jit(values)
+    return cache["observe"](indices, t, x, w, p)

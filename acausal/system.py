@@ -1,0 +1,307 @@
+"""The compiled system: what a user simulates, differentiates and inspects."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from .errors import InitializationError, UnknownNameError, nearest
+from .language.component import Component
+from .language.flat_model import FlatModel
+from .language.template import Ints
+from .lowering.initial import TOLERANCE, InitialProblem, solve_initial
+from .lowering.lowered import Lowered
+from .lowering.parameters import ParameterProgram
+from .passes.aliases import Reduced
+from .passes.schedule import Schedule
+from .passes.structure import IndexReduced
+from .report import Report, equation_lines, make_report
+from .symbolic.expr import Expr
+from .symbolic.printing import path_text
+
+if TYPE_CHECKING:
+    from .simulation.solution import Solution
+
+
+@dataclass(slots=True, eq=False)
+class Stages:
+    """Every record of the compilation, for inspection."""
+
+    flat: FlatModel
+    reduced: Reduced
+    index: IndexReduced
+    schedule: Schedule
+    counts: dict[str, int]
+    seconds: dict[str, float]
+
+
+class System:
+    """A compiled model. Made by `acausal.compile`.
+
+    Attributes:
+        stages: the records of the compilation.
+        lowered: the equations as pure JAX functions.
+        outputs: names given to `compile`.
+    """
+
+    def __init__(
+        self,
+        stages: Stages,
+        program: ParameterProgram,
+        lowered: Lowered,
+        initial: InitialProblem,
+        outputs: tuple[str, ...],
+    ) -> None:
+        self.stages = stages
+        self.program = program
+        self.lowered = lowered
+        self.initial = initial
+        self.outputs = outputs
+        self.cache: dict[Any, Any] = {}
+        lowered.attach(self.observed_ids)
+
+    # ---- names ----------------------------------------------------------------------------------------------------
+    @property
+    def name(self) -> str:
+        """Class name of the model."""
+        return self.stages.flat.model_name
+
+    @cached_property
+    def parameters(self) -> dict[str, float]:
+        """Tunable parameters: dotted name to default value."""
+        flat, program = self.stages.flat, self.program
+        names = flat.names.all_parameters
+        return {n: float(program.default[i]) for i, n in enumerate(names) if not program.dependent[i]}
+
+    @cached_property
+    def states(self) -> tuple[str, ...]:
+        """Dotted names of the states, in the order of the state vector."""
+        return self._names(self.stages.schedule.states)
+
+    @cached_property
+    def algebraics(self) -> tuple[str, ...]:
+        """Dotted names of the algebraic unknowns that the solver iterates on."""
+        return self._names(self.stages.schedule.tears)
+
+    @cached_property
+    def observed(self) -> tuple[str, ...]:
+        """Dotted names of all other variables: computed from the states, eliminated ones included."""
+        kept = set(self.states) | set(self.algebraics)
+        return tuple(n for n in self.stages.flat.names.all_variables if n not in kept)
+
+    @cached_property
+    def input_names(self) -> tuple[str, ...]:
+        """Dotted names of the inputs of the whole model."""
+        return self._names(self.stages.flat.inputs)
+
+    def _names(self, ids: Ints) -> tuple[str, ...]:
+        flat = self.stages.flat
+        if len(ids) < 2000:
+            return tuple(flat.name(int(i)) for i in ids)
+        names = flat.names.all_variables
+        return tuple(names[i] if i < flat.n_var else flat.name(int(i)) for i in ids.tolist())
+
+    @property
+    def observed_ids(self) -> tuple[Ints, Ints]:
+        """(representative, sign) of every declared variable and derivative of the flat model."""
+        n = len(self.stages.index.unknown)
+        reduced = self.stages.reduced
+        more = n - len(reduced.representative)
+        representative = np.concatenate([reduced.representative, np.arange(n - more, n)])
+        return representative, np.concatenate([reduced.sign, np.ones(more, np.int64)])
+
+    def index_of(self, key: str | Expr) -> Ints:
+        """Indices in the vector of all variables that a name (or a variable of the model object) stands for.
+
+        A component array without index gives all its elements; ``der(x)`` gives a derivative that the model has.
+
+        Raises:
+            UnknownNameError: with the nearest names.
+        """
+        text = path_text(key.value) if isinstance(key, Expr) and key.op == "symbol" else str(key)
+        flat = self.stages.flat
+        if text.startswith("der(") and text.endswith(")"):
+            inside = text[4:-1].split(",")
+            ids, order = self.index_of(inside[0].strip()), int(inside[1]) if len(inside) > 1 else 1
+            for _ in range(order):
+                reduced = self.observed_ids[0][ids]
+                ids = self.stages.index.derivative_of[reduced]
+                if (np.asarray(ids) < 0).any():
+                    raise UnknownNameError(f"the model does not compute `{text}`: its equations do not need that derivative")
+            return ids
+        ids, is_par = flat.names.find(text)
+        if is_par:
+            raise UnknownNameError(f"`{text}` is a parameter; its value is in `Solution.parameters`")
+        return ids
+
+    def declaration_of(self, key: str | Expr) -> Any:
+        """Declaration (unit, doc) of a variable."""
+        ids = np.ravel(self.index_of(key))
+        flat = self.stages.flat
+        index = int(ids[0])
+        while index >= flat.n_var:
+            index = int(self.stages.index.parent[index])
+        return flat.names.declaration(index)
+
+    # ---- numbers --------------------------------------------------------------------------------------------------
+    def parameter_vector(self, parameters: Mapping[str, Any] | None = None) -> Any:
+        """All parameters (n_p,), dependent ones evaluated; values may be tracers. Pure JAX."""
+        import jax.numpy as jnp
+
+        return self.program.evaluate(parameters or {}, jnp)
+
+    def initialize(
+        self, t0: Any = 0.0, parameters: Mapping[str, Any] | None = None, initial: Mapping[str, Any] | None = None
+    ) -> tuple[Any, Any, Any]:
+        """Consistent start: states x0, algebraic unknowns w0, and the parameter vector p. Pure JAX.
+
+        Args:
+            t0: start time [s].
+            parameters: dotted name to value.
+            initial: dotted name of a variable to its value at the start; it replaces the declared start value and holds
+                exactly.
+        """
+        x0, w0, p, _ = self.initialize_with_residual(t0, parameters, initial)
+        return x0, w0, p
+
+    def initialize_with_residual(
+        self, t0: Any, parameters: Mapping[str, Any] | None, initial: Mapping[str, Any] | None
+    ) -> tuple[Any, Any, Any, Any]:
+        """As `initialize`, with the relative residuals of the initial conditions."""
+        import jax.numpy as jnp
+
+        p = self.parameter_vector(parameters)
+        starts = self.program.starts(p, jnp)
+        representative, sign = self.observed_ids
+        overrides: dict[int, Any] = {}
+        for name, value in (initial or {}).items():
+            ids = self.index_of(name)
+            values = jnp.broadcast_to(jnp.asarray(value, float), np.shape(ids))
+            for k, index in enumerate(np.ravel(ids)):
+                v = jnp.ravel(values)[k]
+                if not sign[index]:
+                    raise InitializationError(f"`{name}` is always zero in this model and cannot be given a start value")
+                overrides[int(representative[index])] = v * int(sign[index])
+        x0, w0, left = solve_initial(self.initial, t0, p, starts, overrides)
+        return x0, w0, p, left
+
+    def check_initial(self, x0: Any, w0: Any, p: Any, left: Any) -> None:
+        """Raise InitializationError unless concrete results of `initialize_with_residual` are a consistent start."""
+        from .report import explain_initial
+
+        values = np.concatenate([np.ravel(np.asarray(a)) for a in (x0, w0, left)])
+        bad_parameter = np.flatnonzero(np.isnan(np.asarray(p)))
+        if len(bad_parameter):
+            names = [self.stages.flat.parameter_name(int(i)) for i in bad_parameter[:5]]
+            raise InitializationError(
+                f"`{self.name}`: parameter {', '.join(f'`{n}`' for n in names)} has no value (or is NaN): give it at "
+                "construction or as simulate(parameters={...})"
+            )
+        if np.isfinite(values).all() and (not np.size(left) or float(np.max(np.asarray(left))) <= 100 * TOLERANCE):
+            return
+        raise InitializationError(explain_initial(self, np.asarray(x0), np.asarray(w0), np.asarray(left)))
+
+    def vector_field(self, t: Any, x: Any, parameters: Mapping[str, Any] | Any = None) -> Any:
+        """Time derivatives of the states, (n_x,). Pure JAX: jit, vmap and grad go through.
+
+        Args:
+            t: time [s].
+            x: states (n_x,), in the order of `states`.
+            parameters: dict of dotted names (missing ones at their default), or a vector from `parameter_vector`.
+        """
+        import jax.numpy as jnp
+
+        p = self.parameter_vector(parameters) if parameters is None or isinstance(parameters, Mapping) else parameters
+        x = jnp.asarray(x)
+        if not self.lowered.n_w:
+            return self.lowered.derivatives(t, x, jnp.zeros(0), p)[0]
+        return self.lowered.explicit(t, x, jnp.asarray(self.algebraic_guess), p)
+
+    @cached_property
+    def algebraic_guess(self) -> Any:
+        """Algebraic unknowns at the default start: where Newton's method begins inside `vector_field`."""
+        import jax
+
+        with jax.ensure_compile_time_eval():
+            _, w0, _ = self.initialize()
+        return np.nan_to_num(np.asarray(w0))
+
+    def jacobian(self, t: Any, x: Any, parameters: Mapping[str, Any] | None = None) -> Any:
+        """d(vector_field)/dx, (n_x, n_x)."""
+        import jax
+
+        return jax.jacfwd(lambda y: self.vector_field(t, y, parameters))(x)
+
+    # ---- running --------------------------------------------------------------------------------------------------
+    def simulate(
+        self,
+        t1: float,
+        *,
+        t0: float = 0.0,
+        parameters: Mapping[str, Any] | None = None,
+        initial: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, Any] | None = None,
+        saveat: Any = None,
+        rtol: float = 1e-6,
+        atol: Any = None,
+        solver: Any = None,
+        engine: Literal["auto", "diffrax"] = "auto",
+        events: bool = True,
+        **options: Any,
+    ) -> Solution:
+        """Simulate from t0 to t1. Differentiable in `parameters` and `initial`.
+
+        Args:
+            t1: end time [s].
+            t0: start time [s].
+            parameters: dotted name to value, for those that differ from their default; values may be tracers.
+            initial: dotted name to start value; it holds exactly.
+            inputs: input name to a number, a function of time written with `jax.numpy`, or a pair (times, values).
+            saveat: times of the result, an array or a `diffrax.SaveAt`; by default 501 equidistant points.
+            rtol: relative tolerance of the error control.
+            atol: absolute tolerance relative to the nominal values; `rtol` by default.
+            solver: a diffrax solver; `Rodas5P` by default.
+            engine: ``diffrax``, or ``auto``.
+            events: whether events are handled.
+            **options: see `acausal.simulation.simulate.simulate`.
+
+        Raises:
+            UnknownNameError, InitializationError, SimulationError: see the message.
+        """
+        from .simulation.simulate import simulate
+
+        return simulate(
+            self, t1, t0=t0, parameters=parameters, initial=initial, inputs=inputs, saveat=saveat, rtol=rtol, atol=atol,
+            solver=solver, engine=engine, events=events, **options,
+        )  # fmt: skip
+
+    # ---- inspection -----------------------------------------------------------------------------------------------
+    def report(self) -> Report:
+        """Counts at each stage, structural index, blocks, torn variables, families, seconds; prints as a table."""
+        return make_report(self)
+
+    def equations(self, form: Literal["sorted", "flat", "reduced"] = "sorted", latex: bool = False) -> str:
+        """The equations as text, one a line.
+
+        Args:
+            form: ``flat`` as written with full names, ``reduced`` after alias elimination and index reduction,
+                ``sorted`` as assignments in the order of evaluation.
+            latex: as LaTeX.
+        """
+        return "\n".join(equation_lines(self, form, latex))
+
+    def check_names(self, names: Sequence[str], known: Sequence[str], what: str) -> None:
+        """Raise UnknownNameError if one of `names` is not among `known`."""
+        for name in names:
+            if name not in known:
+                raise UnknownNameError(f"the model has no {what} `{name}`.{nearest(name, known)}")
+
+    def __repr__(self) -> str:
+        return f"System({self.name}: {self.lowered.n_x} states, {self.lowered.n_w} algebraic unknowns)"
+
+
+__all__ = ["Component", "Report", "Stages", "System"]
