@@ -44,7 +44,7 @@ class Component:
         _collect(cls)
         for name in ("equations", "initial_equations"):
             if name in cls.__dict__:
-                setattr(cls, name, _recorded(cls, cls.__dict__[name]))
+                setattr(cls, name, _recorded(cls, name, cls.__dict__[name]))
 
     def __init__(self, **modifications: Any) -> None:
         # modifications are checked one by one below; the class body gives the type checker their names and types
@@ -267,9 +267,8 @@ def with_modifications(component: C, mods: Mapping[str, Any]) -> C:
     return copy
 
 
-def _recorded(cls: type[Component], function: Any) -> Any:
+def _recorded(cls: type[Component], name: str, function: Any) -> Any:
     """`function`, noting on the instance that it ran, so that a forgotten super().equations() is found."""
-    name = function.__name__
 
     def run(self: Any) -> Any:
         self.__dict__.setdefault(f"_ran_{name}", []).append(cls)
