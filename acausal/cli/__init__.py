@@ -1,0 +1,3 @@
+"""The command line: `acausal demo`, `acausal simulate`, `acausal report`."""
+
+from .arguments import main as main
