@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..dae.alias import alias_sets
+from ..dae.alias import AliasSets, alias_sets
 from ..language.declarations import STATE_SELECT
 from ..language.flat_model import Bools, Family, FlatModel
 from ..language.template import Ints
@@ -64,12 +64,17 @@ class _Edges:
 
 
 def eliminate_aliases(flat: FlatModel) -> Reduced:
-    """Merge equal variables; differentiated variables stay apart, so that the structural index is the model's own."""
+    """Merge equal variables.
+
+    Of several differentiated variables in one set, those with a second-order equation of motion of their own (the
+    derivative is again differentiated) stay apart, with the constraint between them as an equation: two masses joined
+    rigidly are a system of index 3. The others are merged, and so are their derivatives.
+    """
     edges = _Edges(flat.alias_a, flat.alias_b, flat.alias_sign, flat.alias_source, flat.alias_ordinal)
     edges = edges.extend(flat.zero, flat.zero, np.zeros_like(flat.zero), flat.zero_source, flat.zero_ordinal)
-    keep = (flat.derivative_of >= 0) | (flat.parent >= 0)
     rank = _rank(flat)
     families = merge(flat.families)
+    keep = (flat.derivative_of >= 0) | (flat.parent >= 0)
     while True:
         families, found = _detect(families)
         for family, sign in found:
@@ -77,12 +82,8 @@ def eliminate_aliases(flat: FlatModel) -> Reduced:
             b = family.var_rows[:, 0 if zero else 1]
             signs = np.full(family.size, sign)
             edges = edges.extend(family.var_rows[:, 0], b, signs, family.source, family.ordinal)
-        zeros = edges.sign == 0
-        order = np.concatenate([np.flatnonzero(~zeros), np.flatnonzero(zeros)])
-        link = ~zeros
-        sets = alias_sets(
-            flat.n_total, edges.a[link], edges.b[link], edges.sign[link], edges.a[zeros], keep, rank
-        )
+        edges, keep = _merge_differentiated(flat, edges, keep, rank)
+        sets, order = _sets(flat.n_total, edges, keep, rank)
         representative = np.asarray(sets.representative)
         sign = np.where(np.asarray(sets.is_zero), 0, np.asarray(sets.sign)).astype(np.int64)
         families = specialize(families, representative, sign)
@@ -92,6 +93,55 @@ def eliminate_aliases(flat: FlatModel) -> Reduced:
     families = merge([*families, *_kept(edges, np.asarray(sets.kept_pairs))])
     unknown = (representative == np.arange(flat.n_total)) & (sign != 0)
     return Reduced(flat, families, representative, sign, unknown, redundant)
+
+
+def _sets(n: int, edges: _Edges, keep: Bools | None, rank: Ints | None) -> tuple[AliasSets, Ints]:
+    """Alias sets, and the edge that each of their equation numbers is."""
+    zeros = edges.sign == 0
+    link = ~zeros
+    sets = alias_sets(n, edges.a[link], edges.b[link], edges.sign[link], edges.a[zeros], keep, rank)
+    return sets, np.concatenate([np.flatnonzero(link), np.flatnonzero(zeros)])
+
+
+def _merge_differentiated(flat: FlatModel, edges: _Edges, keep: Bools, rank: Ints) -> tuple[_Edges, Bools]:
+    """Give up the separate life of differentiated variables that only repeat another; add edges of their derivatives."""
+    base = np.flatnonzero((flat.derivative_of >= 0) & keep & (flat.parent < 0))
+    if not len(base):
+        return edges, keep
+    sets, _ = _sets(flat.n_total, edges, None, None)
+    name = np.asarray(sets.representative)
+    zero = np.asarray(sets.is_zero)
+    moving = np.flatnonzero((flat.derivative_of >= 0) & (flat.parent < 0))
+    holds_differentiated = np.zeros(flat.n_total, bool)
+    holds_differentiated[name[moving]] = True
+    derivative = flat.derivative_of[base]
+    second = (flat.derivative_of[derivative] >= 0) | (holds_differentiated[name[derivative]] & ~zero[derivative])
+    group = np.where(zero[base], -1, name[base])
+    order = np.lexsort((base, rank[base], ~second, group))
+    base, second, group = base[order], second[order], group[order]
+    first = np.r_[True, group[1:] != group[:-1]]
+    head = base[first][np.cumsum(first) - 1]
+    give_up = ~second & (~first | (group == -1))
+    if not give_up.any():
+        return edges, keep
+    keep = keep.copy()
+    sign = np.asarray(sets.sign)
+    a, b = base[give_up], head[give_up]
+    relation = np.where(group[give_up] == -1, 0, sign[a] * sign[b])
+    keep[a] = False
+    da, db = flat.derivative_of[a], np.where(relation == 0, flat.derivative_of[a], flat.derivative_of[b])
+    keep[da] = False
+    source, ordinal = _blame(edges, a)
+    ahead = _Edges(da, db, relation, source, ordinal)
+    return ahead.extend(edges.a, edges.b, edges.sign, edges.source, edges.ordinal), keep
+
+
+def _blame(edges: _Edges, variables: Ints) -> tuple[Ints, Ints]:
+    """Source of some alias equation that holds each variable."""
+    ends = np.concatenate([edges.a, edges.b])
+    order = np.argsort(ends, kind="stable")
+    at = order[np.searchsorted(ends[order], variables).clip(0, max(len(ends) - 1, 0))] % len(edges.a)
+    return edges.source[at], edges.ordinal[at]
 
 
 def _rank(flat: FlatModel) -> Ints:

@@ -2,7 +2,7 @@
 
 Static dummy derivatives (Mattsson and Söderlind 1993) where the pivots are constants: every differentiated equation is
 solved for a variable that then is no state. Where every choice of pivots can go singular over the motion (a pendulum in
-Cartesian coordinates), all candidates stay states and the equation stays as an *invariant* onto which the solution is
+Cartesian coordinates, or a loop of links), all candidates stay states and the equation stays as an *invariant* onto which the solution is
 projected after every step (Eich 1993, "Convergence results for a coordinate projection method"; Hairer and Wanner 1996,
 VII.2): a choice that changes with the motion, without a switch.
 """
@@ -13,8 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..dae.dulmage_mendelsohn import dulmage_mendelsohn
 from ..dae.incidence import Incidence
-from ..dae.matching import transversal_basis
+from ..dae.matching import maximum_matching, transversal_basis
 from ..dae.strong_components import block_lower_triangular
 from ..language.flat_model import Bools, Family
 from ..language.template import Ints
@@ -57,21 +58,91 @@ def select_states(reduced: IndexReduced, parameters: np.ndarray) -> Selected:
 
 
 def _solve_lower(reduced: IndexReduced, lower: Ints, candidate: Bools, parameters: np.ndarray) -> Ints:
-    """Variable that each differentiated equation determines, -1 where no pivot is safe."""
-    rows, columns, safe = _edges(reduced, lower)
-    use = candidate[columns]
-    rows, columns, safe = rows[use], columns[use], safe[use]
+    """Variable that each differentiated equation determines, -1 where no pivot is safe.
+
+    An equation can determine variables of its own block of the highest-derivative system only (Mattsson and Söderlind
+    1993, section 3.1). Where a block leaves no choice, the only variable is taken whatever its pivot: if that one
+    vanishes, the model itself is singular there.
+    """
+    rows, columns, kind = _edges(reduced, lower)
+    row_label, column_label = _top_blocks(reduced)
+    use = candidate[columns] & _tight(reduced, lower[rows], columns)
+    rows, columns, kind = rows[use], columns[use], kind[use]
     ids, position = np.unique(columns, return_inverse=True)
     graph = Incidence.from_coo(rows, position, len(lower), len(ids))
-    owner = np.repeat(np.arange(graph.n_rows), np.diff(graph.indptr))
-    n = max(len(ids), 1)
-    allowed = np.isin(owner * n + graph.indices, rows[safe] * n + position[safe])
+    owner = graph.edge_rows()
+    kinds = np.empty(graph.n_edges, np.int64)
+    key = owner * max(len(ids), 1) + graph.indices
+    kinds[np.searchsorted(key, rows * max(len(ids), 1) + position)] = kind
+    own = row_label[lower[owner]] == column_label[ids[graph.indices]]
+    safe = kinds <= Solvability.PARAMETER
+    inside = graph.keep_edges(own)
+    parts = dulmage_mendelsohn(inside, np.asarray(maximum_matching(inside)))
+    forced = np.zeros(len(lower), bool)
+    forced[parts.square_rows] = True
+    allowed = own & (safe | forced[owner])
     order = np.lexsort(_dislike(reduced, ids))
     column = np.asarray(transversal_basis(graph, order, allowed))
-    matched = np.flatnonzero(column >= 0)
+    column = _avoid_iteration(graph, column, kinds, allowed, order)
+    matched = np.flatnonzero((column >= 0) & ~forced)
     unsafe = _unsafe_blocks(reduced, lower[matched], ids, graph, matched, column, parameters)
     column[matched[unsafe]] = -1
     return np.where(column >= 0, ids[np.maximum(column, 0)] if len(ids) else -1, -1)
+
+
+def _avoid_iteration(graph: Incidence, column: Ints, kinds: Ints, allowed: Bools, order: Ints) -> Ints:
+    """Where an equation would have to be solved by iteration, let it determine a variable of another block instead."""
+    owner = graph.edge_rows()
+    bad = (graph.indices == column[owner]) & (kinds == Solvability.NONLINEAR)
+    if not bad.any():
+        return column
+    before = column.copy()
+    before[owner[bad]] = -1
+    explicit = kinds < Solvability.NONLINEAR
+    safe = kinds <= Solvability.PARAMETER
+    wider = np.asarray(maximum_matching(graph, allowed=(allowed & explicit) | safe, initial=before))
+    if (wider[column >= 0] < 0).any():
+        return column
+    taken = graph.indices == wider[owner]
+    return np.asarray(transversal_basis(graph, order, (allowed & explicit) | taken))
+
+
+def _top_blocks(reduced: IndexReduced) -> tuple[Ints, Ints]:
+    """Block of the highest-derivative system that every row and every column (of any order) belongs to."""
+    top_rows = np.flatnonzero(reduced.row_derivative < 0)
+    top = reduced.unknown & (reduced.derivative_of < 0)
+    graph = reduced.rows.incidence(len(top), top).select(rows=top_rows)
+    blocks = block_lower_triangular(graph, reduced.top_assignment[top_rows])
+    row_label = np.full(len(reduced.row_derivative), -1, np.int64)
+    column_label = np.full(len(top), -2, np.int64)
+    row_label[top_rows] = blocks.block_of_row
+    column_label[reduced.top_assignment[top_rows]] = blocks.block_of_row
+    return _inherit(row_label, reduced.row_derivative), _inherit(column_label, reduced.derivative_of)
+
+
+def _inherit(label: Ints, derivative: Ints) -> Ints:
+    """Labels of the highest derivatives, handed down to what they are derivatives of."""
+    while True:
+        below = np.flatnonzero((label < 0) & (derivative >= 0))
+        ready = below[label[derivative[below]] >= 0]
+        if not len(ready):
+            return label
+        label[ready] = label[derivative[ready]]
+
+
+def _height(derivative: Ints) -> Ints:
+    """How many more derivatives there are above each row or column."""
+    height = np.zeros(len(derivative), np.int64)
+    at = derivative.copy()
+    while (at >= 0).any():
+        height += at >= 0
+        at = np.where(at >= 0, derivative[at], -1)
+    return height
+
+
+def _tight(reduced: IndexReduced, rows: Ints, columns: Ints) -> Bools:
+    """Whether a column is a leading variable of a row: both have as many derivatives above them."""
+    return _height(reduced.row_derivative)[rows] == _height(reduced.derivative_of)[columns]
 
 
 def _dislike(reduced: IndexReduced, ids: Ints) -> tuple[Ints, ...]:
@@ -86,11 +157,11 @@ def _dislike(reduced: IndexReduced, ids: Ints) -> tuple[Ints, ...]:
     return -ids, start_given, flat.fixed[ids] == 1, flat.select[ids].astype(np.int64), -order
 
 
-def _edges(reduced: IndexReduced, lower: Ints) -> tuple[Ints, Ints, Bools]:
-    """(position in `lower`, variable, pivot is a non-zero constant) of every incidence."""
+def _edges(reduced: IndexReduced, lower: Ints) -> tuple[Ints, Ints, Ints]:
+    """(position in `lower`, variable, `Solvability`) of every incidence."""
     rows: list[Ints] = []
     columns: list[Ints] = []
-    safe: list[Bools] = []
+    kinds: list[Ints] = []
     table = reduced.rows
     family_of = table.family_of[lower]
     for k in np.unique(family_of):
@@ -100,9 +171,8 @@ def _edges(reduced: IndexReduced, lower: Ints) -> tuple[Ints, Ints, Bools]:
         for slot in range(family.var_rows.shape[1]):
             columns.append(family.var_rows[local, slot])
             rows.append(mine)
-            constant = isolate(family.residual, var(slot)).solvability <= Solvability.PARAMETER
-            safe.append(np.full(len(mine), constant))
-    return np.concatenate(rows), np.concatenate(columns), np.concatenate(safe)
+            kinds.append(np.full(len(mine), int(isolate(family.residual, var(slot)).solvability)))
+    return np.concatenate(rows), np.concatenate(columns), np.concatenate(kinds)
 
 
 def _unsafe_blocks(
