@@ -23,7 +23,7 @@ class Boom(Component):
     I: Parameter = Parameter(1.0, unit="kg*m2", min=0.0, doc="moment of inertia about the joint")  # noqa: E741
     g: Parameter = Parameter(9.81, unit="m/s2", doc="acceleration of gravity")
     phi: Variable = Variable(unit="rad", state_select="prefer", doc="angle above the horizontal")
-    w: Variable = Variable(unit="rad/s", nominal=0.1, state_select="prefer", doc="angular velocity")
+    w: Variable = Variable(unit="rad/s", nominal=0.1, doc="angular velocity")
 
     def equations(self) -> Equations:
         yield from super().equations()

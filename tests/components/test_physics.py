@@ -89,7 +89,7 @@ def test_masses_on_a_rod_move_as_one() -> None:
     assert len(system.states) == 2
     assert_allclose(solution["second.v"], 3.0 * np.exp(-2.0 * T), atol=1e-7)
     assert_allclose(solution["second.s"] - solution["first.s"], 1.1, atol=1e-10)
-    assert_allclose(solution["sensor.f"], -3.0 * solution["second.a"] - 10.0 * solution["second.v"], atol=1e-6)
+    assert_allclose(solution["sensor.f"], 3.0 * solution["second.a"] + 10.0 * solution["second.v"], atol=1e-6)
 
 
 def test_free_masses_keep_their_momentum() -> None:
@@ -153,7 +153,9 @@ def test_vessels_keep_the_oil() -> None:
     dp = solution["first.p"] - solution["second.p"]
     flow = 0.65 * 1e-7 * np.sqrt(2 / 870.0) * dp / (dp**2 + 1e8) ** 0.25
     assert_allclose(solution["orifice.q"], flow, rtol=1e-9)
-    assert_allclose(flow, np.sign(dp) * 0.65e-7 * np.sqrt(2 * np.abs(dp) / 870.0), rtol=1e-4)
+    wide = dp > 2e6  # far from the laminar transition it is the law of the sharp edge
+    assert wide.sum() > 10
+    assert_allclose(flow[wide], 0.65e-7 * np.sqrt(2 * dp[wide] / 870.0), rtol=1e-5)
 
 
 def test_line_comes_to_the_flow_that_its_friction_allows() -> None:
@@ -166,7 +168,7 @@ def test_line_comes_to_the_flow_that_its_friction_allows() -> None:
     factor = 0.25 / np.log10(5e-5 / (3.7 * 0.038) + 5.74 / reynolds**0.9) ** 2
     loss = factor * 10.0 / 0.038 * 850.0 / 2 * w**2
     orifices = 2 * (q / (0.65 * 1e-3)) ** 2 * 850.0 / 2
-    assert_allclose(loss + orifices, 1.9e6, rtol=1e-5)
+    assert_allclose(loss + orifices, 1.9e6, rtol=5e-4)  # but for the orifices' laminar transition
 
 
 def test_friction_laws_agree_outside_of_the_transition() -> None:

@@ -71,7 +71,7 @@ class PartialCylinder(Component, partial=True):
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.x == self.flange.s
-        yield self.v == der(self.x)
+        yield self.v == der(self.flange.s)
         yield self.p_a == self.port_a.p
         yield self.p_b == self.port_b.p
 
