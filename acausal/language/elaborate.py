@@ -102,6 +102,7 @@ class Elaborator:
         out = Attributes(
             np.full(n_par, nan), np.full(n_var, nan), np.full(n_var, -1, np.int8), np.full(n_var, nan),
             np.full(n_var, STATE_SELECT.index("default"), np.int8),
+            np.array([d.kind for d in cls._declarations.values() if d.kind != Kind.PARAMETER], np.int8),
         )  # fmt: skip
         for name, declaration in cls._declarations.items():
             if declaration.kind == Kind.PARAMETER:

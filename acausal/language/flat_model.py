@@ -125,6 +125,7 @@ class FlatModel:
     fixed: NDArray[np.int8]
     nominal: Floats
     select: NDArray[np.int8]
+    kind: NDArray[np.int8]
     start_assignments: list[Assignment]
     inputs: Ints
     sources: list[Source] = field(default_factory=list[Source])

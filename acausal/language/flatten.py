@@ -287,6 +287,7 @@ def flatten(model: Component) -> FlatModel:
         fixed=np.pad(attributes.fixed, (0, pad), constant_values=-1),
         nominal=np.pad(attributes.nominal, (0, pad), constant_values=np.nan),
         select=np.pad(attributes.select, (0, pad), constant_values=2),
+        kind=np.pad(attributes.kind, (0, pad), constant_values=Kind.VARIABLE),
         start_assignments=walker.start_assignments, inputs=inputs, sources=walker.sources,
     )  # fmt: skip
 

@@ -231,6 +231,7 @@ class Attributes:
         fixed: 1, 0, or -1 where not given.
         nominal: nan where not given.
         select: index into `STATE_SELECT`.
+        kind: `Kind` of each variable.
     """
 
     par: Floats
@@ -238,14 +239,15 @@ class Attributes:
     fixed: NDArray[np.int8]
     nominal: Floats
     select: NDArray[np.int8]
+    kind: NDArray[np.int8]
 
     def copy(self) -> Attributes:
         """An independent copy."""
         return Attributes(*(a.copy() for a in self.arrays()))
 
     def arrays(self) -> tuple[Any, ...]:
-        """The five arrays."""
-        return self.par, self.start, self.fixed, self.nominal, self.select
+        """All arrays."""
+        return self.par, self.start, self.fixed, self.nominal, self.select, self.kind
 
     @staticmethod
     def join(parts: list[Attributes]) -> Attributes:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..dae.alias import AliasSets, alias_sets
-from ..language.declarations import STATE_SELECT
+from ..language.declarations import STATE_SELECT, Kind
 from ..language.flat_model import Bools, Family, FlatModel
 from ..language.template import Ints
 from ..symbolic.expr import Expr, add, neg, var
@@ -66,9 +66,9 @@ class _Edges:
 def eliminate_aliases(flat: FlatModel) -> Reduced:
     """Merge equal variables.
 
-    Of several differentiated variables in one set, those with a second-order equation of motion of their own (the
-    derivative is again differentiated) stay apart, with the constraint between them as an equation: two masses joined
-    rigidly are a system of index 3. The others are merged, and so are their derivatives.
+    Of several differentiated variables in one set, a component's own (not those of its connectors) stay apart, with the
+    constraint between them as an equation: two masses joined rigidly are a system of index 3, two capacitors in parallel
+    of index 2. Differentiated connector variables are merged, and so are their derivatives.
     """
     edges = _Edges(flat.alias_a, flat.alias_b, flat.alias_sign, flat.alias_source, flat.alias_ordinal)
     edges = edges.extend(flat.zero, flat.zero, np.zeros_like(flat.zero), flat.zero_source, flat.zero_ordinal)
@@ -111,17 +111,13 @@ def _merge_differentiated(flat: FlatModel, edges: _Edges, keep: Bools, rank: Int
     sets, _ = _sets(flat.n_total, edges, None, None)
     name = np.asarray(sets.representative)
     zero = np.asarray(sets.is_zero)
-    moving = np.flatnonzero((flat.derivative_of >= 0) & (flat.parent < 0))
-    holds_differentiated = np.zeros(flat.n_total, bool)
-    holds_differentiated[name[moving]] = True
-    derivative = flat.derivative_of[base]
-    second = (flat.derivative_of[derivative] >= 0) | (holds_differentiated[name[derivative]] & ~zero[derivative])
+    own = flat.kind[base] == Kind.VARIABLE
     group = np.where(zero[base], -1, name[base])
-    order = np.lexsort((base, rank[base], ~second, group))
-    base, second, group = base[order], second[order], group[order]
+    order = np.lexsort((base, rank[base], ~own, group))
+    base, own, group = base[order], own[order], group[order]
     first = np.r_[True, group[1:] != group[:-1]]
     head = base[first][np.cumsum(first) - 1]
-    give_up = ~second & (~first | (group == -1))
+    give_up = ~own & (~first | (group == -1))
     if not give_up.any():
         return edges, keep
     keep = keep.copy()

@@ -142,6 +142,7 @@ def _extend(flat: FlatModel, n: int) -> None:
     flat.fixed = np.pad(flat.fixed, (0, n), constant_values=-1)
     flat.nominal = np.pad(flat.nominal, (0, n), constant_values=np.nan)
     flat.select = np.pad(flat.select, (0, n), constant_values=2)
+    flat.kind = np.pad(flat.kind, (0, n), constant_values=0)
 
 
 def _index(reduced: Reduced, equation_order: Ints, derivative_of: Ints, unknown: Bools) -> int:
