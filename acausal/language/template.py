@@ -18,7 +18,7 @@ from ..symbolic.equation import Origin
 from ..symbolic.expr import Expr
 from .component import Component, Connector, field_names, path_text
 from .connections import Connect
-from .declarations import Declaration, Kind
+from .declarations import Kind
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -91,7 +91,7 @@ class Reference:
 
     offsets: Ints
     par_offsets: Ints
-    declaration: Declaration | None
+    declaration: Any  # Declaration | None; the class is a descriptor, which a type checker would apply here
     template: Template | None
     outer: str | None
     inside: bool
