@@ -32,7 +32,10 @@ class Status:
         self._width = 0
 
     def stage(self, text: str) -> None:
-        """Begin a stage."""
+        """Begin a stage; an empty text ends the last one."""
+        if not text:
+            self.clear()
+            return
         with self._lock:
             self._text, self._since = text, time.perf_counter()
         if self._shown and not self._terminal:
