@@ -1,4 +1,4 @@
-"""The compilation report, equations as text, and explanations of numerical findings."""
+"""The compilation report, and explanations of numerical findings."""
 
 from __future__ import annotations
 
@@ -9,9 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .language.flat_model import Family, FlatModel
-from .passes.schedule import Group
-from .symbolic.expr import Expr
-from .symbolic.printing import to_text
 
 if TYPE_CHECKING:
     from .system import System
@@ -88,7 +85,7 @@ def make_report(system: System) -> Report:
     """Collect the figures of a compilation."""
     stages, low = system.stages, system.lowered
     schedule = stages.schedule
-    linear = Counter(g.kernel.size and len(g.kernel.matrix) for g in schedule.groups for _ in range(g.size) if g.kernel.matrix)
+    linear = Counter(len(g.kernel.matrix) for g in schedule.groups for _ in range(g.size) if g.kernel.matrix)
     kernels = {id(g.kernel) for g in schedule.groups}
     return Report(
         model=system.name,
@@ -112,53 +109,6 @@ def make_report(system: System) -> Report:
     )
 
 
-def equation_lines(system: System, form: str, latex: bool) -> list[str]:
-    """Equations of one stage as text."""
-    flat = system.stages.flat
-    if latex:
-        from .symbolic.latex import equation_latex
-
-        return [equation_latex(line) for line in equation_lines(system, form, False)]
-    if form == "flat":
-        lines = [flat.equation_text(f, k) for f in flat.families for k in range(f.size)]
-        signs = {1: "", -1: "-"}
-        triples = zip(flat.alias_a, flat.alias_b, flat.alias_sign, strict=True)
-        lines += [f"{flat.name(int(a))} = {signs[int(s)]}{flat.name(int(b))}" for a, b, s in triples]
-        return lines + [f"{flat.name(int(z))} = 0" for z in flat.zero]
-    if form == "reduced":
-        return [flat.equation_text(f, k) for f in system.stages.index.families for k in range(f.size)]
-    if form == "sorted":
-        return [line for g in system.stages.schedule.groups for line in _sorted_lines(flat, g)] + [
-            f"0 = {flat.equation_text(f, k)}    (invariant)" for f in system.stages.schedule.invariants for k in range(f.size)
-        ]
-    raise ValueError(f"form={form!r} is not one of 'sorted', 'flat', 'reduced'")
-
-
-def _sorted_lines(flat: FlatModel, group: Group) -> list[str]:
-    lines: list[str] = []
-    for k in range(group.size):
-        text = _namer(flat, group.var_rows[k], group.par_rows[k])
-        kernel = group.kernel
-        names = ", ".join(flat.name(int(group.var_rows[k, t])) for t in kernel.tears)
-        if kernel.matrix:
-            lines.append(f"solve a linear system of {len(kernel.matrix)} for {names}")
-        for residual in kernel.residuals:
-            lines.append(f"0 = {text(residual)}    (iterates {names})")
-        lines += [f"{flat.name(int(group.var_rows[k, u]))} := {text(e)}" for u, e in kernel.steps]
-    return lines
-
-
-def _namer(flat: FlatModel, variables: Any, parameters: Any) -> Any:
-    def leaf(node: Expr) -> str:
-        if node.op == "var":
-            return flat.name(int(variables[node.value]))
-        if node.op == "par":
-            return flat.parameter_name(int(parameters[node.value]))
-        return "time"
-
-    return lambda e: to_text(e, leaf)
-
-
 def explain_initial(system: System, x0: np.ndarray, w0: np.ndarray, left: np.ndarray) -> str:
     """Why an initialization failed: the conditions that cannot be met, with their sources."""
     problem, flat, low = system.initial, system.stages.flat, system.lowered
@@ -173,23 +123,23 @@ def explain_initial(system: System, x0: np.ndarray, w0: np.ndarray, left: np.nda
         texts.append("a value given as simulate(initial={...})")
     texts += extra
     if len(left):
-        entries = sorted(
-            ((float(r) if np.isfinite(r) else np.inf, t) for r, t in zip(left, texts, strict=False)), key=lambda e: -e[0]
-        )
+        distances = [float(r) if np.isfinite(r) else np.inf for r in left]
+        entries = sorted(zip(distances, texts, strict=False), key=lambda e: -e[0])
     lines = [f"Initialization of `{system.name}` found no consistent start."]
     shown = [e for e in entries if e[0] > 1e-8][:8]
     if shown:
         lines.append("Conditions that are not met (distance relative to the scale of the unknowns):")
         lines += [f"    {r:9.2e}  {t}" for r, t in shown]
-    bad = [n for n, v in zip((*system.states, *system.algebraics), np.concatenate([x0, w0]), strict=True) if not np.isfinite(v)]
+    names = (*system.states, *system.algebraics)
+    bad = [n for n, v in zip(names, np.concatenate([x0, w0]), strict=True) if not np.isfinite(v)]
     if bad:
         lines.append(f"Not finite at the start: {', '.join(bad[:8])}")
     fixed = [n for n, f in zip(system.states, problem.fixed, strict=True) if f]
     if fixed:
         lines.append(f"Held exactly: {_few(tuple(fixed))}")
     lines.append(
-        "Try: fewer `fixed=True` start values where the conditions contradict each other, or better guesses (start values) "
-        "for the variables named here."
+        "Try: fewer `fixed=True` start values where the conditions contradict each other, or better guesses (start "
+        "values) for the variables named here."
     )
     return "\n".join(lines)
 

@@ -13,13 +13,14 @@ from .errors import InitializationError, UnknownNameError, nearest
 from .language.component import Component
 from .language.flat_model import FlatModel
 from .language.template import Ints
+from .listing import equation_lines
 from .lowering.initial import TOLERANCE, InitialProblem, solve_initial
 from .lowering.lowered import Lowered
 from .lowering.parameters import ParameterProgram
 from .passes.aliases import Reduced
 from .passes.schedule import Schedule
 from .passes.structure import IndexReduced
-from .report import Report, equation_lines, make_report
+from .report import Report, make_report
 from .symbolic.expr import Expr
 from .symbolic.printing import path_text
 

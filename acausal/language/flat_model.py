@@ -162,7 +162,7 @@ class FlatModel:
 
         if form is not None:
             return to_text(form, leaf)
-        lhs, rhs = _sides(family.residual)
+        lhs, rhs = sides(family.residual)
         return f"{to_text(lhs, leaf)} = {to_text(rhs, leaf)}"
 
     def parameter_name(self, index: int) -> str:
@@ -177,7 +177,7 @@ class FlatModel:
         return source.component(int(family.ordinal[row])), str(source.origin)
 
 
-def _sides(residual: Expr) -> tuple[Expr, Expr]:
+def sides(residual: Expr) -> tuple[Expr, Expr]:
     """Positive terms on the left, negative ones on the right."""
     from ..symbolic.expr import add, neg
 

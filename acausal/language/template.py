@@ -72,7 +72,8 @@ class ChildSlot:
             yield (self.name,), self.templates[0], self.var_offsets[0], self.par_offsets[0], 1
         elif self.uniform:
             if self.count:
-                yield (self.name, range(self.count)), self.templates[0], self.var_offsets[0], self.par_offsets[0], self.count
+                prefix = (self.name, range(self.count))
+                yield prefix, self.templates[0], self.var_offsets[0], self.par_offsets[0], self.count
         else:
             for i, template in enumerate(self.templates):
                 yield (self.name, i), template, self.var_offsets[i], self.par_offsets[i], 1
@@ -169,9 +170,8 @@ class Template:
                 return Reference(offset + own, zero, declaration, None, outer, inside)
             slot = template.children.get(part)
             if slot is None:
-                raise DeclarationError(
-                    f"`{path_text(path)}`: `{template.cls.__name__}` has no `{part}`.{nearest(str(part), field_names(template.cls))}"
-                )
+                hint = nearest(str(part), field_names(template.cls))
+                raise DeclarationError(f"`{path_text(path)}`: `{template.cls.__name__}` has no `{part}`.{hint}")
             if slot.role == "outer":
                 outer, offset, par_offset = part, np.zeros((), np.int64), np.zeros((), np.int64)
             inside = inside or not slot.templates[0].is_connector

@@ -1,5 +1,8 @@
-"""Derivatives by forward automatic differentiation on the DAG: sharing is kept, size stays linear in the number of nodes
-times the number of directions (Griewank and Walther 2008, Evaluating Derivatives, ch. 3)."""
+"""Derivatives by forward automatic differentiation on the DAG.
+
+Sharing is kept; the size stays linear in the number of nodes times the number of directions (Griewank and Walther 2008,
+Evaluating Derivatives, ch. 3).
+"""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 """Interned, immutable expression nodes.
 
 Two structurally equal expressions are the same object (hash-consing; Filliâtre and Conchon 2006, "Type-safe modular
-hash-consing"), so identity is equality, common subexpressions are shared for free, and every traversal memoises by node.
-Only local simplification happens at construction (constant folding, ``x + 0``, ``x * 1``, ``x - x``): no expansion, no
-sorting, no assumptions. Anything cleverer is a named pass elsewhere.
+hash-consing"), so identity is equality, common subexpressions are shared for free, and every traversal memoises by
+node. Only local simplification happens at construction (constant folding, ``x + 0``, ``x * 1``, ``x - x``): no
+expansion, no sorting, no assumptions. Anything cleverer is a named pass elsewhere.
 """
 
 from __future__ import annotations
@@ -161,7 +161,7 @@ class Expr:
 
 
 Operand = Any
-"""What arithmetic accepts beside an expression: a number, or a declaration of the class body (`Parameter`, `Variable`)."""
+"""What arithmetic accepts beside an expression: a number, or a declaration of the class body (`Parameter`, ...)."""
 
 
 def intern_node(op: str, args: tuple[Expr, ...], value: Any = None) -> Expr:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from .expr import Expr
 from .traverse import postorder
 
-_PREC = {"add": 1, "neg": 2, "mul": 3, "div": 3, "pow": 5, "lt": 0, "le": 0, "gt": 0, "ge": 0, "and": -2, "or": -3, "not": -1}
+_PREC = {"lt": 0, "le": 0, "gt": 0, "ge": 0, "and": -2, "or": -3}
 _INFIX = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and": "&", "or": "|"}
 _ATOM = 9
 

@@ -56,7 +56,9 @@ def substitute(root: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
     return rewrite((root,), mapping.get)[0]
 
 
-def evaluate(roots: Iterable[Expr], leaf: Callable[[Expr], Any], xp: Any, memo: dict[int, Any] | None = None) -> list[Any]:
+def evaluate(
+    roots: Iterable[Expr], leaf: Callable[[Expr], Any], xp: Any, memo: dict[int, Any] | None = None
+) -> list[Any]:
     """Values of `roots`, computed with the functions of module `xp` (`numpy` or `jax.numpy`).
 
     Args:
