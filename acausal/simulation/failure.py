@@ -35,30 +35,35 @@ def explain(
     what = _WHAT.get(result, result.replace("_", " ")).format(max_steps=max_steps)
     head = f"The simulation stopped at t = {t:.9g} s of {t1:.9g} s: {what}."
     counts = f"{stats['steps']} steps by {stats['solver']}, {stats['rejected']} of them rejected."
-    dx, r = (np.asarray(v) for v in lowered.derivatives(t, x, w, p))
-    states = list(system.states)
-    algebraics = [*getattr(system, "iteration_variables", ())] or [f"iteration variable {i}" for i in range(w.size)]
+    dx, r = lowered.derivatives(t, x, w, p)
+    found = _nonfinite(system, dx, r)
+    if found:
+        return "\n".join([head, f"{found} there.", *_equation(system, t, x, w, p), counts])
 
-    bad = np.flatnonzero(~np.isfinite(dx))
-    bad_r = np.flatnonzero(~np.isfinite(r))
-    if bad.size or bad_r.size:
-        name = f"der({states[bad[0]]})" if bad.size else f"the equation of {algebraics[bad_r[0]]}"
-        value = dx[bad[0]] if bad.size else r[bad_r[0]]
-        found = f"{name} is {value} there."
-        return "\n".join([head, found, *_equation(system, t, x, w, p), counts])
-
-    lines = [head, *_fastest(states, np.asarray(x), dx, lowered.x_nominal)]
+    lines = [head, *_fastest(system, np.asarray(x), np.asarray(dx), lowered.x_nominal)]
     if result == "dt_min_reached":
-        # Just beyond the last point: the step that failed went there.
-        ahead = x + dx * 1e-9 * max(abs(t1 - t), 1e-9)
-        lines += _equation(system, t, ahead, w, p)
+        # The step that failed went just beyond the last point.
+        step = 1e-6 * (t1 - t)
+        beyond = t + step, x + step * dx, w, p
+        found = _nonfinite(system, *lowered.derivatives(*beyond))
+        if found:
+            lines += [f"{found} just beyond this point.", *_equation(system, *beyond)]
         lines.append(
-            "Often: a solution that grows without bound, a square root or division that leaves its domain beyond this "
-            "point, or a discontinuity that should be an event."
+            "Often: a square root or a division that leaves its domain, a solution that grows without bound, or a "
+            "discontinuity that should be an event."
         )
     if result == "max_steps_reached":
         lines.append("Raise `max_steps`, loosen `rtol`, or look for chattering in this variable.")
     return "\n".join([*lines, counts])
+
+
+def _nonfinite(system: Any, dx: Any, r: Any) -> str:
+    """The first value that is not finite, as `name is value`; empty if there is none."""
+    for values, names, text in ((dx, system.states, "der({})"), (r, system.algebraics, "the residual of {}")):
+        bad = np.flatnonzero(~np.isfinite(np.asarray(values)))
+        if bad.size:
+            return f"{text.format(names[bad[0]])} is {np.asarray(values)[bad[0]]}"
+    return ""
 
 
 def _equation(system: Any, t: float, x: Any, w: Any, p: Any) -> list[str]:
@@ -68,10 +73,11 @@ def _equation(system: Any, t: float, x: Any, w: Any, p: Any) -> list[str]:
     return [text] if text else []
 
 
-def _fastest(states: list[str], x: np.ndarray, dx: np.ndarray, nominal: np.ndarray) -> list[str]:
+def _fastest(system: Any, x: np.ndarray, dx: np.ndarray, nominal: np.ndarray) -> list[str]:
     """The state that changes fastest for its size: most often the one whose error the steps follow."""
     if not x.size:
         return []
     speed = np.abs(dx) / (np.abs(x) + np.asarray(nominal))
     worst = int(np.argmax(speed))
-    return [f"The fastest variable there is {states[worst]} = {x[worst]:.6g}, changing at {dx[worst]:.6g} per second."]
+    value = f"{system.states[worst]} = {x[worst]:.6g}"
+    return [f"The fastest variable there is {value}, changing at {dx[worst]:.6g} per second."]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import logging
 import os
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -12,14 +13,16 @@ import jax
 import jax.numpy as jnp
 from jax.extend.core import jaxprs_in_params
 
+from .cache import cache_of
+
 FUSE_BELOW = 1500
-"""Equations of the traced program up to which loop fusion pays; beyond, compiling takes too long (it grows faster than linearly)."""
+"""Equations of a traced program up to which loop fusion pays; beyond, compiling it grows faster than its size."""
 
 _FUSED = ({"xla_cpu_use_fusion_emitters": False}, {})
 _UNFUSED = ({"xla_disable_hlo_passes": "fusion"}, {"xla_cpu_use_fusion_emitters": False}, {})
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def compiler_options(fusion: bool) -> dict[str, Any] | None:
     """XLA options with or without loop fusion, each set probed once; `None` if this XLA knows none of them.
 
@@ -82,7 +85,7 @@ def jit(fun: Callable[..., Any], *, fusion: bool | None = None, **options: Any) 
 
     @functools.wraps(fun)
     def call(*args: Any, **kwargs: Any) -> Any:
-        if inside_jit():
+        if inside_jit() or is_traced((args, kwargs)):
             return inner(*args, **kwargs)
         if not decided:
             decided.append(choose_fusion(inner.trace(*args, **kwargs).jaxpr))
@@ -95,6 +98,35 @@ def jit(fun: Callable[..., Any], *, fusion: bool | None = None, **options: Any) 
 def inside_jit() -> bool:
     """Whether operations are being recorded for a compiled program rather than carried out."""
     return isinstance(jnp.add(0, 0), jax.core.Tracer)
+
+
+def is_traced(tree: Any) -> bool:
+    """Whether a pytree has a traced leaf."""
+    return any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(tree))
+
+
+def compiled_for(owner: Any, key: Any, run: Any, arguments: tuple[Any, ...]) -> tuple[Any, float]:
+    """The executable of a jitted function for the shapes of the arguments, kept with `owner`.
+
+    Args:
+        owner: what the executable is kept with.
+        key: name of the function there.
+        run: what `jax.jit` returned.
+        arguments: its arguments.
+
+    Returns:
+        The executable, and the seconds of tracing and compiling (0 if it was there).
+    """
+    cache = cache_of(owner)
+    leaves, structure = jax.tree.flatten(arguments)
+    full = ("executable", key, structure, tuple((jnp.shape(a), str(jnp.result_type(a))) for a in leaves))
+    if full in cache:
+        return cache[full], 0.0
+    begin = time.perf_counter()
+    traced = run.trace(*arguments)
+    options = compiler_options(choose_fusion(traced.jaxpr))
+    cache[full] = traced.lower().compile(compiler_options=options)
+    return cache[full], time.perf_counter() - begin
 
 
 def choose_fusion(jaxpr: Any) -> bool:

@@ -1,4 +1,4 @@
-"""What the solving layer needs of a lowered system: pure JAX functions of time, states, tearing variables, parameters."""
+"""What the solving layer needs of a lowered system: pure functions of time, states, tearing variables, parameters."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rodas5P: a stiffly accurate Rosenbrock-Wanner method of order 5 for stiff ODEs and index-1 DAEs, as a diffrax solver."""
+"""Rodas5P, a stiffly accurate Rosenbrock-Wanner method of order 5 for ODEs and index-1 DAEs, as a diffrax solver."""
 
 from __future__ import annotations
 
@@ -66,7 +66,8 @@ class Rodas5P(AbstractAdaptiveSolver[None]):
             the order of `ravel_pytree`); `None` has the linear solver differentiate the vector field.
         time_derivative: `(t, y, args) -> df/dt`, like y; used with `jacobian` only. `None` differentiates.
         project: `(t, y, args) -> y`, run on the candidate of each step: projects it on known invariants.
-        linear_solver: how W = M/(h gamma) - J is formed and solved: `DenseLU()` or `SparseKLU(...)`.
+        linear_solver: how W = M/(h gamma) - J is formed and solved: `DenseLU()` or `SparseKLU(...)`; `None` is
+            dense, and in `simulate` whatever suits the size of the system.
 
     Source: Steinebach (2023), BIT Numerical Mathematics 63:27, https://doi.org/10.1007/s10543-023-00967-x.
     """
@@ -75,7 +76,7 @@ class Rodas5P(AbstractAdaptiveSolver[None]):
     jacobian: Callable[[Any, PyTree[Array], Any], Array] | None = None
     time_derivative: Callable[[Any, PyTree[Array], Any], PyTree[Array]] | None = None
     project: Callable[[Any, PyTree[Array], Any], PyTree[Array]] | None = None
-    linear_solver: AbstractLinearSolver = DenseLU()
+    linear_solver: AbstractLinearSolver | None = None
 
     term_structure: ClassVar[Any] = AbstractTerm
     interpolation_cls: ClassVar[Callable[..., Rodas5PInterpolation]] = Rodas5PInterpolation
@@ -112,22 +113,22 @@ class Rodas5P(AbstractAdaptiveSolver[None]):
             value = terms.vf_prod(t, unflatten(state), args, control)
             return _flat(value)[0].astype(y.dtype)
 
+        linear_solver = DenseLU() if self.linear_solver is None else self.linear_solver
         if self.jacobian is None:
-            first, rate, jacobian = self.linear_solver.jacobian(field, t0, y)
+            first, rate, jacobian = linear_solver.jacobian(field, t0, y)
         else:
             first, rate, jacobian = self._given_jacobian(field, t0, y, unflatten, terms, args, control)
         rate = h * rate
         mass = jnp.ones_like(y) if self.mass is None else jnp.asarray(self.mass, y.dtype)
-        factors = self.linear_solver.factor(mass / tableau.GAMMA, jacobian)
-        solve = self.linear_solver.solve
+        factors = linear_solver.factor(mass / tableau.GAMMA, jacobian)
 
         def stage(u: Array, row: tuple[Array, Array, Array, Array]) -> tuple[Array, None]:
             i, coupling, node, weight = row
             increments = coupling @ u
             value = field(t0 + node * h, y + increments[0]) + mass * increments[1] + weight * rate
-            return u.at[i].set(solve(factors, value)), None
+            return u.at[i].set(linear_solver.solve(factors, value)), None
 
-        u = jnp.zeros((8, y.shape[0]), y.dtype).at[0].set(solve(factors, first + tableau.D[0] * rate))
+        u = jnp.zeros((8, y.shape[0]), y.dtype).at[0].set(linear_solver.solve(factors, first + tableau.D[0] * rate))
         constants = [jnp.asarray(a[1:], y.dtype) for a in (_COUPLING, tableau.NODES, tableau.D)]
         # A loop, not seven copies of the vector field: it compiles in half the time and runs as fast.
         u, _ = jax.lax.scan(stage, u, (jnp.arange(1, 8), *constants))

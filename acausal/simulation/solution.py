@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 KEEP_ALL = 4_000_000
-"""Values of all variables up to which they are computed at once and kept; beyond, each request computes what it returns."""
+"""Up to so many values all variables are computed at once and kept; beyond, each request computes what it returns."""
 
 
 @jax.tree_util.register_pytree_node_class
@@ -124,7 +124,9 @@ class Solution:
     def _values(self, indices: Any) -> Any:
         if self._traced or self.x.ndim != 2:
             if self.x.ndim != 2:
-                raise ValueError("Take a single solution out of a batch first: `jax.tree.map(lambda a: a[0], solution)`.")
+                raise ValueError(
+                    "Take a single solution out of a batch first: `jax.tree.map(lambda a: a[0], solution)`."
+                )
             return _observe(self.lowered, jnp.asarray(indices), self.t, self.x, self.w, self.p)
         if self._all is None and self._size <= KEEP_ALL:
             everything = jnp.arange(self._n_all)
@@ -214,9 +216,8 @@ class Solution:
 
     def describe(self, key: Any) -> tuple[str, str]:
         """Unit and description of a variable, empty where the model gives none."""
-        describe = getattr(self.system, "describe", None)
-        found = describe(key) if describe is not None else None
-        return (found[0] or "", found[1] or "") if found else ("", "")
+        declaration = self.system.declaration_of(key)
+        return getattr(declaration, "unit", None) or "", getattr(declaration, "doc", None) or ""
 
     def plot(self, *names: Any, ax: Any = None, **style: Any) -> Any:
         """Plots variables over time: one axis a unit, named in the legend, units on the axes.
@@ -240,7 +241,9 @@ class Solution:
             )
             axes = list(axes[:, 0])
         elif len(groups) > 1:
-            raise ValueError(f"One `ax` is for one unit; these variables have the units {', '.join(map(repr, groups))}.")
+            raise ValueError(
+                f"One `ax` is for one unit; these variables have the units {', '.join(map(repr, groups))}."
+            )
         else:
             figure, axes = ax.figure, [ax]
         for axis, (unit, keys) in zip(axes, groups.items(), strict=True):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 from typing import Any
 
 import jax
@@ -36,12 +37,12 @@ class HandLowered:
         return jnp.zeros(0)
 
     def solve_algebraic(self, t, x, w_guess, p):
-        w = jax.lax.stop_gradient(w_guess)
-        for _ in range(8):
+        def newton(w):
             r, jac = self.derivatives(t, x, w, p)[1], jax.jacfwd(lambda v: self.derivatives(t, x, v, p)[1])(w)
-            w = jax.lax.stop_gradient(w - jnp.linalg.solve(jac, r))
-        r, jac = self.derivatives(t, x, w, p)[1], jax.jacfwd(lambda v: self.derivatives(t, x, v, p)[1])(w)
-        return w - jnp.linalg.solve(jax.lax.stop_gradient(jac), r)
+            return w - jnp.linalg.solve(jac, r)
+
+        solved = jax.lax.fori_loop(0, 8, lambda _, w: newton(w), jax.lax.stop_gradient(w_guess))
+        return newton(jax.lax.stop_gradient(solved))  # one more step carries the implicit derivative
 
     def observe(self, t, x, w, p):
         return jnp.concatenate([x, w])
@@ -131,7 +132,9 @@ class HandSystem:
 
     def initialize(self, t0, parameters, initial):
         p = jnp.stack([jnp.asarray((parameters or {}).get(k, v), float) for k, v in self.defaults.items()])
-        x0 = jnp.stack([jnp.asarray((initial or {}).get(k, v), float) for k, v in zip(self.states, self.start, strict=True)])
+        x0 = jnp.stack(
+            [jnp.asarray((initial or {}).get(k, v), float) for k, v in zip(self.states, self.start, strict=True)]
+        )
         w0 = jnp.asarray(self.w_start, float)
         return x0, self.lowered.solve_algebraic(t0, x0, w0, p) if len(w0) else w0, p
 
@@ -146,8 +149,8 @@ class HandSystem:
             raise UnknownNameError(f"no `{name}`.{nearest(name, names)}")
         return names.index(name), 1
 
-    def describe(self, key):
-        return self.units.get(key if isinstance(key, str) else key.name, ""), "text"
+    def declaration_of(self, key):
+        return SimpleNamespace(unit=self.units.get(key if isinstance(key, str) else key.name, ""), doc="text")
 
 
 def van_der_pol(mu: float = 100.0) -> HandSystem:

@@ -1,0 +1,121 @@
+"""Inputs of a model as functions of time: numbers, tables, or functions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import Array
+
+from acausal.errors import SimulationError, UnknownNameError, nearest
+
+from .cache import cache_of
+from .lowered import Lowered
+
+Driven = tuple[Array, tuple[Any, ...]]
+"""Parameters of a driven system: the parameter vector and the numbers of its inputs."""
+
+
+class DrivenLowered:
+    """A lowered system whose inputs, the last entries of its parameter vector, follow given functions of time.
+
+    Its functions take `Driven` instead of the parameter vector.
+    """
+
+    def __init__(self, lowered: Lowered, places: Sequence[int], signals: Sequence[Callable[[Any, Any], Any]]) -> None:
+        self.lowered = lowered
+        self.places = np.asarray(places)
+        self.signals = tuple(signals)
+        self.n_x, self.n_w, self.n_g = lowered.n_x, lowered.n_w, lowered.n_g
+        self.x_nominal, self.w_nominal = lowered.x_nominal, lowered.w_nominal
+
+    def at(self, t: Any, p: Driven) -> Array:
+        """The parameter vector at time t."""
+        vector, data = p
+        values = [jnp.asarray(signal(t, d), float) for signal, d in zip(self.signals, data, strict=True)]
+        return vector.at[self.places].set(jnp.stack(values))
+
+    def derivatives(self, t: Any, x: Array, w: Array, p: Any) -> tuple[Array, Array]:
+        return self.lowered.derivatives(t, x, w, self.at(t, p))
+
+    def invariants(self, t: Any, x: Array, w: Array, p: Any) -> Array:
+        return self.lowered.invariants(t, x, w, self.at(t, p))
+
+    def solve_algebraic(self, t: Any, x: Array, w_guess: Array, p: Any) -> Array:
+        return self.lowered.solve_algebraic(t, x, w_guess, self.at(t, p))
+
+    def observe(self, t: Any, x: Array, w: Array, p: Any) -> Array:
+        return self.lowered.observe(t, x, w, self.at(t, p))
+
+    def sparsity(self) -> Any:
+        return self.lowered.sparsity()
+
+
+def drive(system: Any, inputs: Mapping[str, Any]) -> tuple[DrivenLowered, tuple[Any, ...]]:
+    """The driven system for these inputs, and their numbers.
+
+    Args:
+        system: offers `lowered` and `input_names`, the names of the last entries of the parameter vector in order.
+        inputs: name to a number; a pair (times, values) that is interpolated linearly and held beyond its ends; or a
+            function of time written with `jax.numpy`.
+
+    Raises:
+        UnknownNameError: the model has no such input.
+        SimulationError: a value is none of these.
+    """
+    names = tuple(system.input_names)
+    lowered = system.lowered
+    places: list[int] = []
+    signals: list[Callable[[Any, Any], Any]] = []
+    data: list[Any] = []
+    for name, value in inputs.items():
+        if name not in names:
+            known = nearest(name, names) or f" Its inputs are: {', '.join(names) or 'none'}."
+            raise UnknownNameError(f"The model has no input `{name}`.{known}")
+        places.append(names.index(name) - len(names))
+        signal, numbers = _signal(name, value)
+        signals.append(signal)
+        data.append(numbers)
+    key = ("driven", tuple(places), tuple(signals))
+    cache = cache_of(lowered)
+    if key not in cache:
+        cache[key] = DrivenLowered(lowered, places, [s if s in _OWN else _ignoring(s) for s in signals])
+    return cache[key], tuple(data)
+
+
+def _signal(name: str, value: Any) -> tuple[Callable[..., Any], Any]:
+    """The function of an input and the numbers it takes: those may change without compiling anew."""
+    if callable(value):
+        return value, None
+    if isinstance(value, (tuple, list)) and len(value) == 2 and np.ndim(value[0]) == 1:
+        times, values = (jnp.asarray(v, float) for v in value)
+        if times.shape != values.shape or times.shape[0] < 1:
+            raise SimulationError(
+                f"The table of the input `{name}` has times of shape {times.shape} and values of shape {values.shape}; "
+                "they must be vectors of the same length."
+            )
+        return _table, (times, values)
+    if isinstance(value, jax.Array) or np.isscalar(value) or np.ndim(value) == 0:
+        return _constant, jnp.asarray(value, float)
+    raise SimulationError(
+        f"The input `{name}` is a {type(value).__name__}; give a number, a pair (times, values), or a function of time."
+    )
+
+
+def _constant(t: Any, value: Any) -> Any:
+    del t
+    return value
+
+
+def _table(t: Any, table: tuple[Array, Array]) -> Array:
+    return jnp.interp(t, *table)
+
+
+_OWN = (_constant, _table)
+
+
+def _ignoring(function: Callable[[Any], Any]) -> Callable[[Any, Any], Any]:
+    return lambda t, _: function(t)

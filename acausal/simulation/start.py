@@ -1,0 +1,43 @@
+"""The consistent start of a run, compiled once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+
+from .cache import cache_of
+from .jit import compiled_for, inside_jit, is_traced
+
+
+def start(
+    system: Any,
+    t0: Any,
+    parameters: Mapping[str, Any] | None,
+    initial: Mapping[str, Any] | None,
+    *,
+    check: bool,
+) -> tuple[Any, Any, Any, float]:
+    """States, tearing variables and parameters at `t0`, and the seconds of compiling.
+
+    The system's `initialize` runs as one compiled program; other values of the same names reuse it. If the system
+    offers `initialize_with_residual` and `check_initial`, the start is checked (not inside JAX transformations).
+    """
+    given = {name: jnp.asarray(value, float) for name, value in (parameters or {}).items()}
+    starts = {name: jnp.asarray(value, float) for name, value in (initial or {}).items()}
+    arguments = (jnp.asarray(t0, float), given, starts)
+    with_residual = getattr(system, "initialize_with_residual", None)
+    cache = cache_of(system.lowered)
+    if "start" not in cache:
+        cache["start"] = jax.jit(with_residual or system.initialize)
+    run = cache["start"]
+    if inside_jit() or is_traced(arguments):
+        x0, w0, p, *_ = run(*arguments)
+        return x0, w0, p, 0.0
+    compiled, seconds = compiled_for(system.lowered, "start", run, arguments)
+    x0, w0, p, *left = compiled(*arguments)
+    if left and check:
+        system.check_initial(x0, w0, p, left[0])
+    return x0, w0, p, seconds
