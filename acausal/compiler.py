@@ -81,7 +81,7 @@ def compile(
     program = clock("parameters", lambda: ParameterProgram(flat))
     reduced = clock("aliases", lambda: eliminate_aliases(flat))
     clock("structure check", lambda: check_structure(reduced))
-    low_index = clock("index reduction", lambda: regularize(reduced, program.default))
+    low_index = clock("index reduction", lambda: regularize(reduced, program.generic))
     selected = clock("states", lambda: select_states(low_index, program.default))
     schedule = clock("sort and tear", lambda: make_schedule(selected))
     lowered = clock("lower", lambda: Lowered(schedule, _nominal(flat, reduced, len(low_index.unknown)), program.n_p))

@@ -113,7 +113,8 @@ class System:
         reduced = self.stages.reduced
         more = n - len(reduced.representative)
         representative = np.concatenate([reduced.representative, np.arange(n - more, n)])
-        return representative, np.concatenate([reduced.sign, np.ones(more, np.int64)])
+        sign = np.concatenate([reduced.sign, np.ones(more, np.int64)])
+        return representative, np.where(self.stages.index.unknown[representative], sign, 0)
 
     def index_of(self, key: str | Expr) -> Ints:
         """Indices in the vector of all variables that a name (or a variable of the model object) stands for.

@@ -52,6 +52,15 @@ class ParameterProgram:
                 values = _put(values, part.targets, evaluate_assignment(part, values, xp), xp)
         return values
 
+    def generic(self, random: np.random.Generator) -> Floats:
+        """Parameter values in general position near the defaults (n_p,), dependent ones evaluated."""
+        noise = random.uniform(0.02, 0.2, self.n_p)
+        values = np.where(np.isnan(self.base), 1.0 + noise, self.base * (1.0 + noise))
+        values = np.where(values == 0.0, noise, values)
+        for assignment in self.ordered:
+            values[assignment.targets] = evaluate_assignment(assignment, values, np)
+        return values
+
     def starts(self, p: Any, xp: Any) -> Any:
         """Start values of all variables (nan where none is given), with expressions evaluated."""
         values: Any = self.flat.start.copy() if xp is np else xp.asarray(self.flat.start)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -77,6 +77,22 @@ class IndexReduced:
         """Row numbering."""
         return Rows(self.families)
 
+    @cached_property
+    def row_integral(self) -> Ints:
+        """For every row the row that it is the derivative of, or -1."""
+        before = np.full(len(self.row_derivative), -1, np.int64)
+        lower = np.flatnonzero(self.row_derivative >= 0)
+        before[self.row_derivative[lower]] = lower
+        return before
+
+    def name(self, index: int) -> str:
+        """Name of a variable or derivative, those that differentiation brought in included."""
+        order = 0
+        while index >= self.flat.n_var:
+            index, order = int(self.parent[index]), order + 1
+        base = self.flat.name(index)
+        return base if order == 0 else f"der({base})" if order == 1 else f"der({base}, {order})"
+
 
 def check_structure(reduced: Reduced) -> None:
     """Raise StructureError unless there are as many equations as unknowns and none is redundant by itself."""
@@ -130,14 +146,22 @@ def reduce_index(reduced: Reduced) -> IndexReduced:
     out = IndexReduced(
         flat, families, unknown, row_derivative, derivative_of, parent, 0, assignment, int((order > 0).sum())
     )
-    flat.derivative_of, flat.parent = derivative_of, parent
-    _extend(flat, n_new)
     out.index = _index(reduced, order, derivative_of, unknown)
     return out
 
 
-def _extend(flat: FlatModel, n: int) -> None:
-    """Attributes for the derivatives that differentiation brought in."""
+def extended(flat: FlatModel, derivative_of: Ints, parent: Ints) -> FlatModel:
+    """A copy of `flat` with the derivatives that differentiation brought in."""
+    copy = replace(flat)
+    copy.__dict__["names"] = flat.names
+    extend(copy, derivative_of, parent)
+    return copy
+
+
+def extend(flat: FlatModel, derivative_of: Ints, parent: Ints) -> None:
+    """Add the derivatives that differentiation brought in, with their attributes."""
+    n = len(derivative_of) - flat.n_total
+    flat.derivative_of, flat.parent = derivative_of, parent
     flat.start = np.pad(flat.start, (0, n), constant_values=np.nan)
     flat.fixed = np.pad(flat.fixed, (0, n), constant_values=-1)
     flat.nominal = np.pad(flat.nominal, (0, n), constant_values=np.nan)

@@ -1,0 +1,391 @@
+"""Combinations of equations that are free of their highest derivatives.
+
+For a block whose Jacobian J with respect to the highest derivatives of its unknowns is singular for all values, a left
+null vector u (over parameters and lower derivatives) gives the equation ``sum u_i f_i = 0``, in which the highest
+derivatives cancel. Rows are differentiated c_i times; the combination takes them ``c_i - min c`` times (Tan, Nedialkov
+and Pryce 2017, section 3). The support of u is a smallest set of dependent rows, so u is found by eliminating a few
+rows of expressions; whether an expression is zero is decided by its values at points in general position.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.linalg import qr
+
+from ..errors import StructureError
+from ..language.flat_model import Family, FlatModel, canonical
+from ..language.template import Floats, Ints
+from ..symbolic.differentiate import partial
+from ..symbolic.expr import ONE, ZERO, Expr, add, div, mul, neg, par, var
+from ..symbolic.gradient import Sampler
+from ..symbolic.traverse import leaves, substitute
+from .structure import IndexReduced
+
+Point = tuple[Floats, Floats, float]
+"""Values of the variables, of the parameters, and the time."""
+
+ZERO_BELOW = 1e-11
+"""A difference is zero if it is this small relative to what it is the difference of, at all points."""
+LARGEST = 2000
+"""Blocks beyond this size are taken as they are."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Replacement:
+    """A combination in the place of other equations.
+
+    Attributes:
+        rows: rows that are replaced.
+        family: the equations instead, in the order of `rows`.
+        combined: text and place of the equations combined, for the first of `rows`.
+    """
+
+    rows: Ints
+    family: Family
+    combined: list[tuple[str, str, str]]
+
+
+def describe(flat: FlatModel, replacements: list[Replacement]) -> str:
+    """What was replaced, as text."""
+    lines: list[str] = []
+    for replacement in replacements:
+        lines.append("For all values, these equations do not determine their highest derivatives separately:")
+        lines += [f"    {text:<48} {component or '(model)'}  {place}" for text, component, place in replacement.combined]
+        lines.append(f"The combination without these derivatives: {flat.equation_text(replacement.family, 0)}")
+    return "\n".join(lines)
+
+
+def combine(
+    index: IndexReduced, blocks: list[Ints], points: list[Point], random: np.random.Generator
+) -> list[Replacement]:
+    """Replacements for blocks (rows of `index`) with a singular Jacobian.
+
+    Raises:
+        StructureError: there is no combination, or it says nothing.
+    """
+    groups: dict[Any, list[_Block]] = {}
+    for rows in blocks:
+        if len(rows) <= LARGEST:
+            block = _Block(index, rows)
+            groups.setdefault(block.signature, []).append(block)
+    out: list[Replacement] = []
+    for members in groups.values():
+        found = _Group(index, members, points, random).replacements()
+        if found is None and len(members) > 1:  # the instances differ: one by one
+            for block in members:
+                out.extend(_Group(index, [block], points, random).replacements() or [])
+        else:
+            out.extend(found or [])
+    return out
+
+
+def scaled(matrices: Floats) -> Floats:
+    """Rows, then columns, divided by their largest element, twice."""
+    for _ in range(2):
+        for axis in (-1, -2):
+            size = np.abs(matrices).max(axis=axis, keepdims=True)
+            matrices = matrices / np.where(size > 0, size, 1.0)
+    return matrices
+
+
+class _Block:
+    """One block with the equations that its rows are derivatives of, over local numbers; the unknowns come first.
+
+    Attributes:
+        chains: for each row of the block the positions in `shape` of itself, its antiderivative, and so on.
+        shape: (residual, variable slots, parameter slots) of all equations.
+    """
+
+    def __init__(self, index: IndexReduced, rows: Ints) -> None:
+        before = index.row_integral
+        unknowns = index.top_assignment[rows].tolist()
+        number: dict[int, int] = {v: i for i, v in enumerate(unknowns)}
+        parameters: dict[int, int] = {}
+        self.size = len(rows)
+        self.chains: list[list[int]] = []
+        self.rows: list[int] = []
+        self.shape: list[tuple[Expr, tuple[int, ...], tuple[int, ...]]] = []
+        for top in rows.tolist():
+            chain: list[int] = []
+            row = top
+            while row >= 0:
+                family, k = index.rows.locate(row)
+                slots = tuple(number.setdefault(v, len(number)) for v in family.var_rows[k].tolist())
+                pars = tuple(parameters.setdefault(p, len(parameters)) for p in family.par_rows[k].tolist())
+                chain.append(len(self.shape))
+                self.shape.append((family.residual, slots, pars))
+                self.rows.append(row)
+                row = int(before[row])
+            self.chains.append(chain)
+        self.variables = list(number)
+        self.parameters = list(parameters)
+        self.below = [number.get(int(index.parent[v]), -1) for v in self.variables]
+        self.signature = (
+            tuple((id(r), s, p) for r, s, p in self.shape), tuple(map(tuple, self.chains)), tuple(self.below)
+        )  # fmt: skip
+
+
+@dataclass(slots=True, eq=False)
+class _Entry:
+    """An expression, its values at the points, and the size of the terms it came from."""
+
+    expression: Expr
+    value: Any
+
+    def minus(self, factor: _Entry, other: _Entry) -> _Entry:
+        """``self - factor * other``, exactly zero where it is zero."""
+        product = factor.value * other.value
+        value = self.value - product
+        if np.all(np.abs(value) <= ZERO_BELOW * (np.abs(self.value) + np.abs(product))):
+            return _Entry(ZERO, 0.0 * value)
+        return _Entry(add(self.expression, neg(mul(factor.expression, other.expression))), value)
+
+    @property
+    def nonzero(self) -> bool:
+        """Whether it is zero nowhere."""
+        return self.expression is not ZERO and bool(np.all(np.abs(self.value) > 0))
+
+    @property
+    def rank(self) -> int:
+        """How safe it is to divide by it: 0 for a number, 1 for parameters, 2 for variables."""
+        return pivot_rank(self.expression)
+
+
+def pivot_rank(expression: Expr) -> int:
+    """0 for a number, 1 for an expression of parameters, 2 for others."""
+    if expression.op == "const":
+        return 0
+    return 1 if all(leaf.op == "par" for leaf in leaves(expression)) else 2
+
+
+class _Group:
+    """Blocks of equal shape."""
+
+    def __init__(
+        self, index: IndexReduced, blocks: list[_Block], points: list[Point], random: np.random.Generator
+    ) -> None:
+        self.index = index
+        self.blocks = blocks
+        self.first = blocks[0]
+        self.var_rows = np.array([b.variables for b in blocks], np.int64)
+        self.par_rows = np.array([b.parameters for b in blocks], np.int64).reshape(len(blocks), -1)
+        self.forms = [
+            substitute(
+                residual,
+                {**{var(i): var(s) for i, s in enumerate(slots)}, **{par(i): par(s) for i, s in enumerate(pars)}},
+            )
+            for residual, slots, pars in self.first.shape
+        ]
+        branches = (lambda: True, lambda: False, lambda: bool(random.integers(2)))
+        self.samplers = [
+            Sampler(self._leaf(point), branch, lambda: float(random.uniform(0.5, 1.5)))
+            for point, branch in zip(points, branches, strict=False)
+        ]
+        self.entries = self._jacobian()
+
+    def _leaf(self, point: Point) -> Any:
+        values, parameters, time = point
+
+        def leaf(node: Expr) -> Any:
+            if node.op == "time":
+                return time
+            if node.op == "par":
+                return parameters[self.par_rows[:, node.value]]
+            return values[self.var_rows[:, node.value]]
+
+        return leaf
+
+    def value(self, expression: Expr) -> Floats:
+        """Values at all points of all blocks, (points, blocks)."""
+        n = len(self.blocks)
+        return np.stack([np.broadcast_to(np.asarray(s.values((expression,))[0], float), (n,)) for s in self.samplers])
+
+    def _jacobian(self) -> dict[tuple[int, int], _Entry]:
+        entries: dict[tuple[int, int], _Entry] = {}
+        m = self.first.size
+        usable = np.ones(len(self.samplers), bool)
+        for i, chain in enumerate(self.first.chains):
+            for u in self.first.shape[chain[0]][1]:
+                if u < m:
+                    expression = partial(self.forms[chain[0]], var(u))
+                    value = self.value(expression)
+                    usable &= np.isfinite(value).all(axis=1)
+                    if (value != 0).any() or not np.isfinite(value).all():
+                        entries[i, u] = _Entry(expression, value)
+        self.samplers = [s for s, ok in zip(self.samplers, usable, strict=True) if ok]
+        for entry in entries.values():
+            entry.value = entry.value[usable]
+        return entries
+
+    def replacements(self) -> list[Replacement] | None:
+        """Combinations for the block's dependent rows; None if there are none after all."""
+        if not self.samplers:
+            return None
+        m = self.first.size
+        matrix = np.zeros((m, m))
+        for (i, u), entry in self.entries.items():
+            matrix[i, u] = entry.value[0, 0]
+        out: list[Replacement] = []
+        replaced: set[int] = set()
+        failed: list[list[int]] = []
+        for circuit in dependent_rows(matrix):
+            if replaced & set(circuit):
+                continue
+            found = self._replacement(circuit)
+            if isinstance(found, Replacement):
+                out.append(found)
+                replaced.update(circuit)
+            elif found:
+                failed.append(circuit)
+        if not out and failed:
+            raise self._failure(failed[0])
+        return out or None
+
+    def _replacement(self, circuit: list[int]) -> Replacement | bool:
+        """The combination; True if it would hold highest derivatives, False if the rows are independent after all."""
+        differentiated = {i: len(self.first.chains[i]) - 1 for i in circuit}
+        lift = min(differentiated.values())
+        gone = self._lowered(range(self.first.size), lift)
+        best: tuple[int, int, dict[int, Expr]] | None = None
+        independent = True
+        for last in circuit:
+            if differentiated[last] != lift:
+                continue
+            worst, vector = self._null_vector(circuit, last)
+            independent &= vector is None
+            if vector is None or any(
+                leaf.op == "var" and (leaf.value in gone or leaf.value < self.first.size)
+                for leaf in leaves(*vector.values())
+            ):
+                continue
+            if best is None or worst < best[0]:
+                best = worst, last, vector
+        if best is None:
+            return not independent
+        _, last, vector = best
+        terms = [mul(u, self.forms[self.first.chains[i][lift]]) for i, u in vector.items()]
+        residual = substitute(add(*terms), {var(z): ZERO for z in gone})
+        value, size = self.value(residual), sum(np.abs(self.value(t)) for t in terms)
+        if not np.isfinite(value).all():
+            residual = substitute(add(*terms), {var(z): ONE for z in gone})
+            value = self.value(residual)
+        if not np.isfinite(value).all():
+            return True
+        if (np.abs(value) <= ZERO_BELOW * size).all():
+            raise self._repetition(list(vector))
+        return self._made(residual, last, lift, list(vector))
+
+    def _lowered(self, unknowns: Iterable[int], steps: int) -> set[int]:
+        """Local numbers of the unknowns, integrated `steps` times."""
+        found: set[int] = set()
+        for u in unknowns:
+            for _ in range(steps):
+                u = self.first.below[u] if u >= 0 else u
+            if u >= 0:
+                found.add(u)
+        return found
+
+    def _null_vector(self, circuit: list[int], last: int) -> tuple[int, dict[int, Expr] | None]:
+        """(Worst pivot, coefficients of a combination of the rows in which all unknowns cancel, 1 for row `last`)."""
+        rows = {i: {u: e for (k, u), e in self.entries.items() if k == i} for i in circuit}
+        one = _Entry(ONE, np.ones((len(self.samplers), len(self.blocks))))
+        factors: dict[int, dict[int, _Entry]] = {i: {i: one} for i in circuit}
+        active = [i for i in circuit if i != last]
+        worst = 0
+        while active:
+            candidates = [
+                (e.rank, sum(u in rows[k] for k in circuit), i, u)
+                for i in active for u, e in rows[i].items() if e.nonzero
+            ]  # fmt: skip
+            if not candidates:
+                return 3, None
+            rank, _, p, u = min(candidates)
+            worst = max(worst, rank)
+            active.remove(p)
+            pivot = rows[p][u]
+            for k in (*active, last):
+                if u not in rows[k]:
+                    continue
+                a = rows[k].pop(u)
+                factor = _Entry(div(a.expression, pivot.expression), a.value / pivot.value)
+                _subtract(rows[k], factor, {v: e for v, e in rows[p].items() if v != u})
+                _subtract(factors[k], factor, factors[p])
+        if rows[last]:
+            return 3, None
+        return worst, {i: e.expression for i, e in factors[last].items()}
+
+    def _made(self, residual: Expr, last: int, lift: int, involved: list[int]) -> Replacement:
+        at = self.first.chains[last][-1]
+        replaced = np.array([b.rows[at] for b in self.blocks], np.int64)
+        families = [self.index.rows.locate(int(r)) for r in replaced]
+        source = np.array([f.source[k] for f, k in families])
+        ordinal = np.array([f.ordinal[k] for f, k in families])
+        form, var_rows, par_rows = canonical(residual, self.var_rows, self.par_rows)
+        return Replacement(replaced, Family(form, var_rows, par_rows, source, ordinal), self._texts(involved))
+
+    def _texts(self, involved: Iterable[int]) -> list[tuple[str, str, str]]:
+        out: list[tuple[str, str, str]] = []
+        for i in involved:
+            family, k = self.index.rows.locate(self.first.rows[self.first.chains[i][-1]])
+            out.append((self.index.flat.equation_text(family, k), *self.index.flat.equation_place(family, k)))
+        return out
+
+    def _error(self, head: str, involved: list[int], tail: str) -> StructureError:
+        flat, texts = self.index.flat, self._texts(involved)
+        lines = [f"`{flat.model_name}` {head}"]
+        lines += [f"    {text:<48} {component or '(model)'}  {place}" for text, component, place in texts]
+        names = [self.index.name(v) for v in self.first.variables[: self.first.size]]
+        return StructureError(
+            "\n".join([*lines, tail]),
+            equations=[t for t, _, _ in texts],
+            unknowns=names,
+            components=dict.fromkeys(c for _, c, _ in texts),
+        )
+
+    def _repetition(self, involved: list[int]) -> StructureError:
+        return self._error(
+            "is singular for all values: one of these equations follows from the others:",
+            involved,
+            "Try: remove one of them and write what is missing instead, often a ground (reference), or a given value "
+            "where only differences are given.",
+        )
+
+    def _failure(self, involved: list[int]) -> StructureError:
+        return self._error(
+            "cannot be reduced: for all values these equations do not determine their highest derivatives, and every "
+            "combination that is free of them has coefficients that hold these derivatives:",
+            involved,
+            "Try: a new variable for the expression of derivatives that the equations share, used in all of them.",
+        )
+
+
+def _subtract(target: dict[int, _Entry], factor: _Entry, row: dict[int, _Entry]) -> None:
+    """``target -= factor * row``, dropping what cancels."""
+    zero = _Entry(ZERO, 0.0 * factor.value)
+    for u, e in row.items():
+        new = target.get(u, zero).minus(factor, e)
+        if new.expression is ZERO:
+            target.pop(u, None)
+        else:
+            target[u] = new
+
+
+def dependent_rows(matrix: Floats) -> list[list[int]]:
+    """Smallest sets of linearly dependent rows of a square matrix, one for each row too many."""
+    a = scaled(matrix)
+    r, order = qr(a.T, mode="r", pivoting=True)
+    diagonal = np.abs(np.diag(r))
+    rank = int((diagonal > 1e-9 * max(diagonal[0], 1e-300)).sum())
+    out: list[list[int]] = []
+    for k in range(rank, len(order)):
+        if rank:
+            weight = np.linalg.solve(r[:rank, :rank], r[:rank, k])
+            support = order[:rank][np.abs(weight) > 1e-8 * np.abs(weight).max(initial=0.0)]
+        else:
+            support = order[:0]
+        out.append(sorted([int(order[k]), *support.tolist()]))
+    return out
