@@ -7,15 +7,18 @@ steps (Deuflhard 2011, Newton Methods for Nonlinear Problems, 4.4).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ..language.flat_model import Bools, Family
-from ..language.template import Ints
+from ..language.template import Floats, Ints
 from ..passes.aliases import Reduced
 from .lowered import Lowered
+
+EASE_NOT_GIVEN, EASE_ALGEBRAIC = 1e2, 1e4
+"""How much more readily than a state with a start value a state without one, or an algebraic unknown, is moved."""
 
 TOLERANCE = 1e-10
 """Residuals are zero when a Newton step would move the unknowns by less than this fraction of their scale."""
@@ -31,6 +34,7 @@ class InitialProblem:
         fixed: mask over the states of those whose start value is an equation.
         targets: other variables whose start value is an equation.
         families: initial equations.
+        ease: scale of the states in the distance from the start values.
     """
 
     lowered: Lowered
@@ -39,7 +43,7 @@ class InitialProblem:
     fixed: Bools
     targets: Ints
     families: list[Family]
-    extra: dict[Any, Any] = field(default_factory=dict[Any, Any])
+    ease: Floats
 
     @property
     def trivial(self) -> bool:
@@ -78,7 +82,9 @@ def initial_problem(reduced: Reduced, lowered: Lowered, families: list[Family], 
     remaining = np.zeros(n, bool)
     remaining[: len(reduced.unknown)] = reduced.unknown
     targets = np.flatnonzero(fixed & remaining & ~is_state)
-    return InitialProblem(lowered, source, sign, fixed[states], targets, families)
+    given[: len(with_start)] = with_start
+    ease = lowered.x_nominal * np.where(given[source[states]], 1.0, EASE_NOT_GIVEN)
+    return InitialProblem(lowered, source, sign, fixed[states], targets, families, ease)
 
 
 def solve_initial(
@@ -127,7 +133,7 @@ def solve_initial(
             parts.append(low.residuals_of(problem.families, t0, x, w, p))
         return jnp.concatenate(parts)
 
-    scale = jnp.asarray(np.concatenate([low.x_nominal[free], low.w_nominal]))
+    scale = jnp.asarray(np.concatenate([problem.ease[free], EASE_ALGEBRAIC * low.w_nominal]))
     y_start = jnp.concatenate([x_start[free], w_start])
     y, left = _gauss_newton(residual, y_start, scale, x_start)
     return (x_start.at[free].set(y[: len(free)]) if len(free) else x_start), y[len(free) :], left

@@ -122,6 +122,12 @@ class Lowered:
         env, _ = self._run(groups, t, x, w_guess, p, solve=True)
         return self._vector(env, self.schedule.tears)
 
+    def sparsity(self) -> Any:
+        """Boolean CSR pattern of d(dx, r)/d(x, w), (n_x + n_w, n_x + n_w)."""
+        from .sparsity import jacobian_pattern
+
+        return jacobian_pattern(self, self._groups_dx)
+
     # ---- emission -------------------------------------------------------------------------------------------------
     def _run(
         self, groups: list[int], t: Any, x: Any, w: Any, p: Any, *, solve: bool = False

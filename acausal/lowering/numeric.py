@@ -1,0 +1,180 @@
+"""The schedule evaluated with NumPy, with derivatives: for work that is done once, where compiling would cost more.
+
+Derivatives are forward-mode: each value carries its gradient with respect to a chosen vector, by the operator table's
+partial derivatives (Griewank and Walther 2008, Evaluating Derivatives, ch. 3).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..language.flat_model import Family
+from ..language.template import Floats, Ints
+from ..symbolic.expr import Expr
+from ..symbolic.operators import OPERATORS
+from ..symbolic.traverse import apply, evaluate, postorder_missing
+
+if TYPE_CHECKING:
+    from ..passes.schedule import Group
+    from .lowered import Lowered
+
+Dual = tuple[Any, Any]
+"""A value, and its gradient with one more axis (or None where it is zero)."""
+
+
+class NumericRun:
+    """Values of all variables at one point, with gradients with respect to y = (chosen states, algebraic unknowns).
+
+    Attributes:
+        value: (n_ids,) values; nan where not yet computed.
+        gradient: (n_ids, n_y).
+        residual: residuals of the iterated equations, in the order of the algebraic unknowns.
+    """
+
+    def __init__(self, lowered: Lowered, t: float, x: Floats, w: Floats, p: Floats, free: Ints) -> None:
+        self.lowered = lowered
+        self.t = t
+        self.p = p
+        states, tears = lowered.schedule.states, lowered.schedule.tears
+        self.n_y = len(free) + len(tears)
+        self.value = np.full(lowered.n_ids, np.nan)
+        self.gradient = np.zeros((lowered.n_ids, self.n_y))
+        self.value[states], self.value[tears] = x, w
+        self.gradient[states[free], np.arange(len(free))] = 1.0
+        self.gradient[tears, len(free) + np.arange(len(tears))] = 1.0
+        residuals: list[Dual] = []
+        with np.errstate(all="ignore"):
+            for group in lowered.schedule.groups:
+                residuals.extend(self._group(group))
+        n = lowered.n_w
+        self.residual: tuple[Floats, Floats] = (
+            np.concatenate([np.zeros(0), *(np.ravel(v) for v, _ in residuals)]),
+            np.concatenate([np.zeros((0, self.n_y)), *(g for _, g in residuals)]),
+        )
+        assert len(self.residual[0]) == n
+
+    def _group(self, group: Group) -> list[Dual]:
+        kernel, rows = group.kernel, group.var_rows
+        leaf = self._leaf(rows, group.par_rows)
+        if kernel.matrix:
+            self._linear(group, leaf)
+        for u, expression in kernel.steps:
+            value, gradient = evaluate_dual((expression,), leaf)[0]
+            self.value[rows[:, u]] = value
+            self.gradient[rows[:, u]] = 0.0 if gradient is None else gradient
+        if not kernel.residuals:
+            return []
+        parts = evaluate_dual(kernel.residuals, leaf)
+        n, k = group.size, len(parts)
+        value = np.stack([np.broadcast_to(v, (n,)) for v, _ in parts], axis=1).reshape(n * k)
+        zero = np.zeros((n, self.n_y))
+        gradient = np.stack([np.broadcast_to(zero if g is None else g, zero.shape) for _, g in parts], axis=1)
+        return [(value, gradient.reshape(n * k, self.n_y))]
+
+    def _leaf(self, rows: Ints, par_rows: Ints) -> Callable[[Expr], Dual]:
+        def leaf(node: Expr) -> Dual:
+            if node.op == "time":
+                return self.t, None
+            if node.op == "par":
+                return self.p[par_rows[:, node.value]], None
+            ids = rows[:, node.value]
+            return self.value[ids], self.gradient[ids]
+
+        return leaf
+
+    def _linear(self, group: Group, leaf: Callable[[Expr], Dual]) -> None:
+        """A linear system and its derivative: A dx = db - dA x."""
+        kernel, n, k = group.kernel, group.size, len(group.kernel.matrix)
+        flat = [e for line in kernel.matrix for e in line]
+        entries = evaluate_dual([*flat, *kernel.rhs], leaf)
+        value = np.stack([np.broadcast_to(v, (n,)) for v, _ in entries], axis=1)
+        zero = np.zeros((n, self.n_y))
+        slope = np.stack([np.broadcast_to(zero if g is None else g, zero.shape) for _, g in entries], axis=1)
+        a, b = value[:, : k * k].reshape(n, k, k), value[:, k * k :]
+        da, db = slope[:, : k * k].reshape(n, k, k, self.n_y), slope[:, k * k :]
+        solution = np.linalg.solve(a, b[..., None])[..., 0]
+        gradient = np.linalg.solve(a, db - np.einsum("nijy,nj->niy", da, solution))
+        for i, u in enumerate(kernel.tears):
+            self.value[group.var_rows[:, u]] = solution[:, i]
+            self.gradient[group.var_rows[:, u]] = gradient[:, i]
+
+    def families(self, families: list[Family]) -> Dual:
+        """Residuals of further equations and their gradients."""
+        values, gradients = [np.zeros(0)], [np.zeros((0, self.n_y))]
+        with np.errstate(all="ignore"):
+            for family in families:
+                value, gradient = evaluate_dual((family.residual,), self._leaf(family.var_rows, family.par_rows))[0]
+                shape = (family.size, self.n_y)
+                values.append(np.broadcast_to(np.asarray(value, float), (family.size,)))
+                gradients.append(np.zeros(shape) if gradient is None else np.broadcast_to(gradient, shape))
+        return np.concatenate(values), np.concatenate(gradients)
+
+
+def evaluate_dual(roots: Iterable[Expr], leaf: Callable[[Expr], Dual]) -> list[Dual]:
+    """Values and gradients of expressions; gradients have one more axis than values."""
+    roots = list(roots)
+    values: dict[int, Any] = {}
+    gradients: dict[int, Any] = {}
+    alive: list[Expr] = []  # the nodes of partial derivatives: `values` is keyed by their identity
+    for node in postorder_missing(roots, values):
+        if node.op == "const":
+            values[id(node)], gradients[id(node)] = node.value, None
+        elif not node.args:
+            values[id(node)], gradients[id(node)] = leaf(node)
+        elif node.op == "call":
+            values[id(node)] = node.value.evaluate(*(values[id(a)] for a in node.args), xp=np)
+            gradients[id(node)] = _chain(node, values, gradients, alive)
+        else:
+            values[id(node)] = apply(node, [values[id(a)] for a in node.args], np)
+            gradients[id(node)] = _chain(node, values, gradients, alive)
+    return [(values[id(root)], gradients[id(root)]) for root in roots]
+
+
+def _chain(node: Expr, values: dict[int, Any], gradients: dict[int, Any], alive: list[Expr]) -> Any:
+    """Gradient of an operator by the chain rule."""
+    moving = [(i, gradients[id(a)]) for i, a in enumerate(node.args) if gradients[id(a)] is not None]
+    if not moving:
+        return None
+    if node.op == "add":
+        return sum(g for _, g in moving)
+    if node.op == "neg":
+        return -moving[0][1]
+    if node.op == "where":
+        condition = np.asarray(values[id(node.args[0])])[..., None]
+        parts = dict(moving)
+        return np.where(condition, parts.get(1, 0.0), parts.get(2, 0.0))
+    total: Any = None
+    for i, g in moving:
+        if node.op == "call":
+            rule = node.value.partial(i, node.args)
+        else:
+            partial = OPERATORS[node.op].partials[i]
+            if partial is None:
+                continue
+            rule = partial(*node.args)
+        alive.append(rule)
+        factor = np.asarray(evaluate((rule,), _no_leaf, np, values)[0], float)[..., None]
+        term = np.where(g == 0.0, 0.0, factor * g)
+        total = term if total is None else total + term
+    return total
+
+
+def _no_leaf(node: Expr) -> Any:
+    raise AssertionError(f"leaf {node} of a partial derivative has no value")
+
+
+def is_concrete(tree: Any) -> bool:
+    """Whether no leaf is traced by JAX (without importing it if nothing did)."""
+    import sys
+
+    if "jax" not in sys.modules:
+        return True
+    import jax
+    import jax.numpy as jnp
+
+    if any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(tree)):
+        return False
+    return not isinstance(jnp.add(0, 0), jax.core.Tracer)
