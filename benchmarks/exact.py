@@ -32,3 +32,37 @@ def ladder_voltage(
 def ladder_nodes(cells: int) -> tuple[int, ...]:
     """The nodes that a run is judged on: the first, the middle one and the open end."""
     return (1, max(1, cells // 2), cells)
+
+
+def chain_displacement(
+    cell: int, cells: int, t: npt.NDArray[np.float64], stiffness: float = 1.0, damping: float = 0.02, mass: float = 1.0
+) -> npt.NDArray[np.float64]:
+    r"""Displacement of one cell of a bar fixed at one end and pulled with 1 N at the other from rest.
+
+    Each cell is a mass $m = M/N$ behind a spring $c = C N$ and a damper $d = D N$ in parallel. The modes are those of
+    `ladder_voltage` and the damping is proportional, so each mode is an oscillator
+    $\ddot q + (d \lambda_j / m) \dot q + (c \lambda_j / m) q = g_j / m$ with $\lambda_j = 4 \sin^2(\theta_j / 2)$.
+
+    Args:
+        cell: which one, 1 (next to the wall) .. `cells` (the pulled end).
+        cells: number of cells N.
+        t: times [s], shape (n,).
+        stiffness: of the whole bar, C [N/m].
+        damping: of the whole bar, D [N s/m].
+        mass: of the whole bar, M [kg].
+
+    Returns:
+        Displacements [m], shape (n,).
+    """
+    theta = (2 * np.arange(1, cells + 1) - 1) * np.pi / (2 * cells + 1)
+    rate = 4 * np.sin(theta / 2) ** 2 * cells / (mass / cells)
+    static = 4 / (2 * cells + 1) * np.sin(cells * theta) * np.sin(cell * theta) * cells / mass / (stiffness * rate)
+    half = damping * rate / 2
+    fast = -half - np.sqrt((half**2 - stiffness * rate).astype(np.complex128))
+    slow = stiffness * rate / fast
+    return np.array(
+        [
+            float(np.sum(static * (1 + (fast * np.exp(slow * s) - slow * np.exp(fast * s)) / (slow - fast))).real)
+            for s in t
+        ]
+    )
