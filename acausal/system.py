@@ -15,7 +15,9 @@ from .language.flat_model import FlatModel
 from .language.template import Ints
 from .listing import equation_lines
 from .lowering.initial import TOLERANCE, InitialProblem, solve_initial
+from .lowering.initial_numeric import solve_numeric
 from .lowering.lowered import Lowered
+from .lowering.numeric import is_concrete
 from .lowering.parameters import ParameterProgram
 from .passes.aliases import Reduced
 from .passes.schedule import Schedule
@@ -174,22 +176,39 @@ class System:
         self, t0: Any, parameters: Mapping[str, Any] | None, initial: Mapping[str, Any] | None
     ) -> tuple[Any, Any, Any, Any]:
         """As `initialize`, with the relative residuals of the initial conditions."""
+        found = self.initialize_numeric(t0, parameters, initial)
+        if found is not None:
+            return found
         import jax.numpy as jnp
 
         p = self.parameter_vector(parameters)
         starts = self.program.starts(p, jnp)
+        x0, w0, left = solve_initial(self.initial, t0, p, starts, self._overrides(initial, jnp))
+        return x0, w0, p, left
+
+    def initialize_numeric(
+        self, t0: Any, parameters: Mapping[str, Any] | None, initial: Mapping[str, Any] | None
+    ) -> tuple[Any, Any, Any, Any] | None:
+        """As `initialize_with_residual`, with NumPy and at once; None inside JAX transformations or if it is large."""
+        if not is_concrete((t0, dict(parameters or {}), dict(initial or {}))):
+            return None
+        p = self.program.evaluate(parameters or {}, np)
+        starts = self.program.starts(p, np)
+        found = solve_numeric(self.initial, float(t0), p, starts, self._overrides(initial, np))
+        return None if found is None else (found[0], found[1], p, found[2])
+
+    def _overrides(self, initial: Mapping[str, Any] | None, xp: Any) -> dict[int, Any]:
+        """Further fixed starts: reduced variable index to value."""
         representative, sign = self.observed_ids
         overrides: dict[int, Any] = {}
         for name, value in (initial or {}).items():
             ids = self.index_of(name)
-            values = jnp.broadcast_to(jnp.asarray(value, float), np.shape(ids))
+            values = xp.ravel(xp.broadcast_to(xp.asarray(value, float), np.shape(ids)))
             for k, index in enumerate(np.ravel(ids)):
-                v = jnp.ravel(values)[k]
                 if not sign[index]:
                     raise InitializationError(f"`{name}` is always zero in this model and cannot be given a start value")
-                overrides[int(representative[index])] = v * int(sign[index])
-        x0, w0, left = solve_initial(self.initial, t0, p, starts, overrides)
-        return x0, w0, p, left
+                overrides[int(representative[index])] = values[k] * int(sign[index])
+        return overrides
 
     def check_initial(self, x0: Any, w0: Any, p: Any, left: Any) -> None:
         """Raise InitializationError unless concrete results of `initialize_with_residual` are a consistent start."""
@@ -226,11 +245,9 @@ class System:
     @cached_property
     def algebraic_guess(self) -> Any:
         """Algebraic unknowns at the default start: where Newton's method begins inside `vector_field`."""
-        import jax
-
-        with jax.ensure_compile_time_eval():
-            _, w0, _ = self.initialize()
-        return np.nan_to_num(np.asarray(w0))
+        p = self.program.default
+        found = solve_numeric(self.initial, 0.0, p, self.program.starts(p, np), {})
+        return np.nan_to_num(self.lowered.w_nominal if found is None else found[1])
 
     def jacobian(self, t: Any, x: Any, parameters: Mapping[str, Any] | None = None) -> Any:
         """d(vector_field)/dx, (n_x, n_x)."""

@@ -15,8 +15,11 @@ from jax.extend.core import jaxprs_in_params
 
 from .cache import cache_of
 
-FUSE_BELOW = 1500
-"""Equations of a traced program up to which loop fusion pays; beyond, compiling it grows faster than its size."""
+FUSE_BELOW = 5000
+"""Equations of a traced program up to which loop fusion pays; beyond, compiling it grows faster than its size.
+
+A solve has about five times the equations of its vector field, which is where the limit was measured: with 460 scalar
+equations fusion compiles in a third of the time and runs four times faster, with 800 it takes twice as long."""
 
 _FUSED = ({"xla_cpu_use_fusion_emitters": False}, {})
 _UNFUSED = ({"xla_disable_hlo_passes": "fusion"}, {"xla_cpu_use_fusion_emitters": False}, {})

@@ -27,6 +27,13 @@ def start(
     """
     given = {name: jnp.asarray(value, float) for name, value in (parameters or {}).items()}
     starts = {name: jnp.asarray(value, float) for name, value in (initial or {}).items()}
+    at_once = getattr(system, "initialize_numeric", None)
+    found = at_once(t0, parameters, initial) if at_once is not None else None
+    if found is not None:
+        if check:
+            system.check_initial(*found)
+        x0, w0, p, _ = (jnp.asarray(a, float) for a in found)
+        return x0, w0, p, 0.0
     arguments = (jnp.asarray(t0, float), given, starts)
     with_residual = getattr(system, "initialize_with_residual", None)
     cache = cache_of(system.lowered)
