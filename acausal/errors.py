@@ -1,4 +1,7 @@
-"""The exceptions of acausal. Every message says what is wrong, where (component, the user's source line) and what to try."""
+"""The exceptions of acausal.
+
+Every message says what is wrong, where (component, the user's source line) and what to try.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,7 @@ class AcausalError(Exception):
 
 
 class DeclarationError(AcausalError, TypeError):
-    """A class or an instance declares something that cannot be: unknown name, wrong type, partial class instantiated."""
+    """A class or an instance declares something that cannot be: unknown name, wrong type, partial class."""
 
 
 class ConnectError(AcausalError):
@@ -62,5 +65,7 @@ class UnknownNameError(AcausalError, KeyError):
 
 def nearest(name: str, known: Iterable[str], count: int = 3) -> str:
     """`` Did you mean ...?`` with the known names nearest to `name`, or an empty string."""
-    found = difflib.get_close_matches(name, list(known), n=count, cutoff=0.5)
+    names = list(known)
+    found = [n for n in names if n.casefold() == name.casefold()][:count]
+    found = found or difflib.get_close_matches(name, names, n=count, cutoff=0.5)
     return f" Did you mean {' or '.join(f'`{f}`' for f in found)}?" if found else ""

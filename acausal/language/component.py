@@ -223,8 +223,8 @@ def _with_length(owner: Component, name: str, child: Array[Any]) -> Array[Any]:
     length = getattr(owner, count) if isinstance(count, str) and count in type(owner)._structural else count
     if not isinstance(length, int) or isinstance(length, bool) or length < 0:
         raise DeclarationError(
-            f"`{type(owner).__name__}.{name}`: the count {count!r} of a component array must be a non-negative integer or "
-            f"the name of a structural parameter of the class.{nearest(str(count), type(owner)._structural)}"
+            f"`{type(owner).__name__}.{name}`: the count {count!r} of a component array must be a non-negative integer "
+            f"or the name of a structural parameter of the class.{nearest(str(count), type(owner)._structural)}"
         )
     resolved = Array(child._element, count, **child._values)
     resolved._length = length
@@ -244,6 +244,8 @@ def merged(default: Any, given: Any) -> Any:
         changed = Array(merged(default._element, given._element), count, **{**default._values, **given._values})
         changed._length = given._length
         return changed
+    if isinstance(default, Start) and isinstance(given, Start):
+        return combined(default, given)
     if not isinstance(default, Component) or not isinstance(given, Component):
         return given
     names = set(field_names(type(given)))
@@ -251,11 +253,21 @@ def merged(default: Any, given: Any) -> Any:
     mods = {**inherited, **given.__dict__["_mods"]}
     for key, value in given.__dict__["_mods"].items():
         if key in inherited:
-            mods[key] = merged(inherited[key], value) if isinstance(value, (Component, Array)) else value
+            mods[key] = merged(inherited[key], value)
     copy = object.__new__(type(given))
     copy.__dict__["_mods"] = mods
     copy.__dict__["_path"] = ()
     return copy
+
+
+def combined(default: Start, given: Start) -> Start:
+    """`given`, with the attributes of `default` that it leaves open."""
+    return Start(
+        default.value if given.value is None else given.value,
+        default.fixed if given.fixed is None else given.fixed,
+        default.nominal if given.nominal is None else given.nominal,
+        default.state_select if given.state_select is None else given.state_select,
+    )
 
 
 def with_modifications(component: C, mods: Mapping[str, Any]) -> C:
@@ -288,13 +300,14 @@ def _collect(cls: type[Component]) -> None:
         if issubclass(base, Component) and base is not Component:
             for table, own in ((declarations, "_declarations"), (structural, "_structural"), (children, "_children")):
                 table.update(base.__dict__.get(own, {}))  # type: ignore[arg-type]
-    annotations = cls.__dict__.get("__annotations__", {})
+    annotations = inspect.get_annotations(cls)
     for name, value in list(cls.__dict__.items()):
         if name.startswith("_"):
             continue
         _collect_one(cls, name, value, annotations.get(name), declarations, structural, children)
     for name in annotations:
-        if not name.startswith("_") and name not in cls.__dict__ and not _known(name, declarations, structural, children):
+        known = name in cls.__dict__ or _known(name, declarations, structural, children)
+        if not known and not name.startswith("_"):
             raise DeclarationError(
                 f"field `{cls.__name__}.{name}` has a type but no value: write `{name}: {annotations[name]} = ...` "
                 f"({cls._source[0]}:{cls._source[1]})"
@@ -341,7 +354,8 @@ def constraint_of(cls: type[Component], name: str) -> type[Component]:
     """Class that a replacement of sub-component `name` must derive from: the annotation, else the default's class."""
     child = cls._children[name]
     default = child.default.component if isinstance(child.default, Shared) else child.default
-    element = default._element if isinstance(default, Array) else default[0] if isinstance(default, (list, tuple)) else default
+    element = default._element if isinstance(default, Array) else default
+    element = element[0] if isinstance(element, (list, tuple)) else element
     annotation = child.constraint
     if isinstance(annotation, str):
         annotation = _evaluate_annotation(cls, annotation)
@@ -396,7 +410,8 @@ def _checked_quantity(cls: type[Component], declaration: Declaration, value: Any
     number = _number(value)
     if number is None:
         raise DeclarationError(
-            f"`{cls.__name__}({name}={value!r})`: a variable takes a start value, `{name}=start(2.0, fixed=True)` {call_site()}"
+            f"`{cls.__name__}({name}={value!r})`: a variable takes a start value, `{name}=start(2.0, fixed=True)` "
+            f"{call_site()}"
         )
     return Start(value)
 
@@ -419,7 +434,7 @@ def _number(value: Any) -> Any:
     if isinstance(value, (int, float)):
         return value
     if isinstance(value, (list, tuple)) or hasattr(value, "tolist"):
-        items = value.tolist() if hasattr(value, "tolist") else list(value)
+        items: Any = list(value) if isinstance(value, (list, tuple)) else value.tolist()
         flat = items if isinstance(items, list) else [items]
         return flat if all(isinstance(v, (int, float)) for v in flat) else None
     return None
@@ -427,7 +442,8 @@ def _number(value: Any) -> Any:
 
 def _checked_structural(cls: type[Component], field: Structural, value: Any) -> Any:
     wanted = field.annotation
-    if type(value) is not wanted and not (wanted is int and hasattr(value, "__index__") and not isinstance(value, bool)):
+    integer = wanted is int and hasattr(value, "__index__") and not isinstance(value, bool)
+    if type(value) is not wanted and not integer:
         raise DeclarationError(
             f"`{cls.__name__}({field.name}={value!r})`: structural parameter `{field.name}` takes a plain "
             f"{wanted.__name__}, not {type(value).__name__} {call_site()}"
@@ -442,8 +458,8 @@ def _checked_child(cls: type[Component], name: str, value: Any) -> Any:
         if not isinstance(item, wanted):
             got = f"class `{item.__name__}` itself (call it)" if isinstance(item, type) else f"`{type(item).__name__}`"
             raise DeclarationError(
-                f"`{cls.__name__}.{name}` is declared as `{wanted.__name__}`: its replacement must be an instance of that "
-                f"class or of a subclass, not {got} {call_site()}"
+                f"`{cls.__name__}.{name}` is declared as `{wanted.__name__}`: its replacement must be an instance of "
+                f"that class or of a subclass, not {got} {call_site()}"
             )
     return list(value) if isinstance(value, (list, tuple)) else value
 
@@ -452,9 +468,10 @@ def call_site() -> str:
     """``(file:line)`` of the nearest caller outside this package."""
     frame = sys._getframe(1)
     package = __name__.rsplit(".", 2)[0]
+    inside = tuple(f"{package}.{part}" for part in ("language", "symbolic", "compiler"))
     while frame is not None:
         module = str(frame.f_globals.get("__name__", ""))
-        if module != package and not module.startswith((f"{package}.language", f"{package}.symbolic", f"{package}.compiler")):
+        if module != package and not module.startswith(inside):
             return f"({frame.f_code.co_filename}:{frame.f_lineno})"
         frame = frame.f_back
     return ""
@@ -498,23 +515,36 @@ def _modify_one(given: C, effective: Component, parts: list[str], value: Any, pa
     cls = type(effective)
     if len(parts) == 1:
         old = given.__dict__["_mods"].get(head)
-        if isinstance(old, Component) and isinstance(value, Component):
-            value = merged(old, value)
-        return with_modifications(given, {head: value})
+        checked = _checked(cls, head, value)
+        return with_modifications(given, {head: checked if old is None else merged(old, checked)})
     if head not in cls._children:
-        hint = nearest(head, cls._children)
-        raise DeclarationError(f"`{path}`: class `{cls.__name__}` has no sub-component `{head}`.{hint} {call_site()}")
+        name, index, _ = head.partition("[")
+        if index and name in cls._children:
+            raise DeclarationError(
+                f"`{path}`: elements of `{name}` are not modified one by one: leave the index out to modify all of "
+                f"them, or give a value for each, `{name}=Array(..., n, field=[...])` {call_site()}"
+            )
+        hint = nearest(name, cls._children)
+        raise DeclarationError(f"`{path}`: class `{cls.__name__}` has no sub-component `{name}`.{hint} {call_site()}")
     child = effective_child(effective, head)
     child = child.component if isinstance(child, Shared) else child
-    if not isinstance(child, Component):
-        raise DeclarationError(
-            f"`{path}`: `{head}` is an array of components; give `{head}=Array(...)` with its values {call_site()}"
-        )
     below = given.__dict__["_mods"].get(head)
-    if below is None:
-        below = object.__new__(type(child))
-        below.__dict__["_mods"], below.__dict__["_path"] = {}, ()
-    return with_modifications(given, {head: _modify_one(below, child, parts[1:], value, path)})
+    if isinstance(child, Array):
+        element = below._element if isinstance(below, Array) else below if isinstance(below, Component) else None
+        changed = _modify_one(element or _bare(child._element), child._element, parts[1:], value, path)
+        if isinstance(below, Array):
+            return with_modifications(given, {head: Array(changed, below._count, **below._values)})
+        return with_modifications(given, {head: changed})
+    if not isinstance(child, Component):
+        raise DeclarationError(f"`{path}`: `{head}` is a list of components: give a new list, {head}=[...] {call_site()}")
+    return with_modifications(given, {head: _modify_one(below or _bare(child), child, parts[1:], value, path)})
+
+
+def _bare(component: C) -> C:
+    """A component of the same class without modifications, whatever its declarations need."""
+    bare = object.__new__(type(component))
+    bare.__dict__["_mods"], bare.__dict__["_path"] = {}, ()
+    return bare
 
 
 class Connector(Component, partial=True):

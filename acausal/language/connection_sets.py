@@ -39,11 +39,11 @@ class ConnectionGraph:
         self.templates.setdefault(key, template)
         self.connectors.setdefault(key, []).append((base, path))
 
-    def add(self, item: Connect, ends: list[tuple[Ints, Template | None, bool]], source: int) -> None:
+    def add(self, item: Connect, ends: list[tuple[Ints, Template | None, bool]], source: int, origin: Origin) -> None:
         """One connect statement: `ends` are (bases (instances, *slice), template, inside)."""
         first = ends[0]
         for end in ends[1:]:
-            a, b = _fit(first[0], end[0], item)
+            a, b = _fit(first[0], end[0], item, origin)
             if first[1] is None or end[1] is None:
                 self.signals.append((a, b, source))
                 continue
@@ -69,7 +69,7 @@ def quantities(template: Template) -> list[tuple[Path, Kind, int]]:
     return template.cache["quantities"]
 
 
-def _fit(a: Ints, b: Ints, item: Connect) -> tuple[Ints, Ints]:
+def _fit(a: Ints, b: Ints, item: Connect, origin: Origin) -> tuple[Ints, Ints]:
     """Ends of a connection, element by element."""
     m = len(a)
     a, b = a.reshape(m, -1), b.reshape(m, -1)
@@ -77,7 +77,10 @@ def _fit(a: Ints, b: Ints, item: Connect) -> tuple[Ints, Ints]:
         from .component import path_text
 
         names = ", ".join(path_text(p) for p in item.paths)
-        raise ConnectError(f"connect({names}): slices of {a.shape[1]} and {b.shape[1]} elements do not fit")
+        raise ConnectError(
+            f"connect({names}): slices of {a.shape[1]} and {b.shape[1]} elements do not fit; both need as many elements, or "
+            f"one of them must be a single connector {origin}"
+        )
     a, b = np.broadcast_arrays(a, b)
     return a.ravel(), b.ravel()
 

@@ -344,7 +344,8 @@ def _run(scope: Component, method: str) -> Any:
         raise DeclarationError(f"`{cls.__name__}.{method}` must be a generator: `yield` each equation, do not return a list")
     for item in generator:
         file, line, owner = _position(generator)
-        origin = Origin(owner, file, line, "equation" if method == "equations" else "initial")
+        kind = "initial" if method != "equations" else "connect" if isinstance(item, Connect) else "equation"
+        origin = Origin(owner, file, line, kind)
         if not isinstance(item, (Equation, Connect)):
             hint = (
                 "one side of `==` must be a variable or expression of the component"

@@ -6,6 +6,7 @@ of ten thousand rows. Every later stage works on families.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -13,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import UnknownNameError, nearest
+from ..errors import AcausalError, UnknownNameError, nearest
 from ..symbolic.equation import Origin
 from ..symbolic.expr import Expr, par, var
 from ..symbolic.printing import path_text, to_text
@@ -98,7 +99,8 @@ class FlatModel:
         n_par: number of scalar parameters.
         derivative_of: int64, for every variable the index of its derivative or -1.
         parent: int64, for every variable the index of the variable it is the derivative of or -1.
-        alias_a, alias_b, alias_sign: connection equations ``a = sign * b``; `alias_source`, `alias_ordinal` say where from.
+        alias_a, alias_b, alias_sign: connection equations ``a = sign * b``; `alias_source` and `alias_ordinal` say
+            where from.
         zero: flows of unconnected connectors.
         inputs: variables that are inputs of the whole model.
     """
@@ -248,39 +250,60 @@ class Names:
             UnknownNameError: with the nearest names.
         """
         try:
-            reference = self.root.resolve(parse_path(name))
-        except Exception:
+            reference = self.root.resolve(self.path(name))
+        except (AcausalError, ValueError, IndexError):
             reference = None
         if reference is None or reference.declaration is None:
-            known = self.all_parameters if parameter else self.all_variables
-            if parameter is None:
-                known = [*self.all_variables, *self.all_parameters]
-            shown = known if len(known) < 20_000 else known[:20_000]
+            patterns = [path_text(path) for path, is_par in _patterns(self.root) if parameter in (None, is_par)]
             what = "parameter" if parameter else "variable"
-            raise UnknownNameError(f"the model has no {what} `{name}`.{nearest(name, shown)}")
+            raise UnknownNameError(f"the model has no {what} `{name}`.{nearest(name, patterns)}")
         is_par = reference.declaration.kind.name == "PARAMETER"
         if parameter is not None and is_par != parameter:
             what, other = ("parameter", "variable") if parameter else ("variable", "parameter")
             raise UnknownNameError(f"`{name}` is a {other}, not a {what}")
         return (reference.par_offsets if is_par else reference.offsets), is_par
 
+    def path(self, name: str) -> Path:
+        """``cells[0].p.v`` as a path; ``cells[1:3]`` and ``cells`` (all elements) hold a range.
 
-def parse_path(name: str) -> Path:
-    """``cells[0].p.v`` as a path; ``cells[1:3]`` as a range; ``cells[:]`` and ``cells`` leave the index open."""
-    parts: list[Any] = []
-    for piece in name.split("."):
-        head, *indices = piece.split("[")
-        parts.append(head)
-        for text in indices:
-            text = text.rstrip("]")
-            if ":" in text:
-                bounds = [int(b) if b else None for b in text.split(":")]
-                if bounds == [None, None]:
-                    continue
-                parts.append(range(bounds[0] or 0, bounds[1] or 0))
-            else:
-                parts.append(int(text))
-    return tuple(parts)
+        Raises:
+            IndexError, ValueError: an index outside the array, or one that is no integer.
+        """
+        template: Template | None = self.root
+        parts: list[Any] = []
+        for piece in name.split("."):
+            head, _, index = piece.partition("[")
+            parts.append(head)
+            slot = None if template is None else template.children.get(head)
+            template = None if slot is None else slot.templates[0] if slot.templates else None
+            if slot is None or slot.count is None:
+                if index:
+                    raise IndexError(name)
+                continue
+            chosen = _chosen(index.rstrip("]"), slot.count)
+            parts.append(chosen)
+            if not slot.uniform:
+                template = slot.templates[chosen[0] if isinstance(chosen, range) else chosen]
+        return tuple(parts)
+
+
+def _chosen(text: str, count: int) -> int | range:
+    """Elements of an array that an index in a name stands for."""
+    if ":" not in text and text:
+        return range(count)[int(text)]
+    return range(count)[slice(*(int(b) if b else None for b in text.split(":")))] if text else range(count)
+
+
+def _patterns(template: Template) -> Iterator[tuple[Path, bool]]:
+    """Paths of all quantities, of component arrays those of the first element only."""
+    for name, (is_par, _) in template.own.items():
+        yield (name,), is_par
+    for slot in template.children.values():
+        if slot.role == "outer":
+            continue
+        for i, child in enumerate(slot.templates):
+            head = (slot.name,) if slot.count is None else (slot.name, i)
+            yield from (((*head, *tail), is_par) for tail, is_par in _patterns(child))
 
 
 def canonical(residual: Expr, var_rows: Ints, par_rows: Ints) -> tuple[Expr, Ints, Ints]:
@@ -294,6 +317,7 @@ def canonical(residual: Expr, var_rows: Ints, par_rows: Ints) -> tuple[Expr, Int
             which = columns[leaf.op == "par"]
             mapping[leaf] = par(len(which)) if leaf.op == "par" else var(len(which))
             which.append(leaf.value)
-    if all(a is b for a, b in mapping.items()) and len(columns[0]) == var_rows.shape[1] and len(columns[1]) == par_rows.shape[1]:
+    complete = len(columns[0]) == var_rows.shape[1] and len(columns[1]) == par_rows.shape[1]
+    if complete and all(a is b for a, b in mapping.items()):
         return residual, var_rows, par_rows
     return substitute(residual, mapping), var_rows[:, columns[0]], par_rows[:, columns[1]]

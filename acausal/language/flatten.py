@@ -114,7 +114,7 @@ class Flattener:
             self._emit_equation(visit, equation, True)
         for item, origin in template.connections:
             source = self._source(visit, origin, 1)
-            self.graph.add(item, [self._connector(visit, path) for path in item.paths], source)
+            self.graph.add(item, [self._connector(visit, path) for path in item.paths], source, origin)
         for binding in template.bindings:
             self._emit_binding(visit, binding)
 
