@@ -22,7 +22,7 @@ from ..language.template import Floats, Ints
 from ..symbolic.differentiate import partial
 from ..symbolic.expr import ONE, ZERO, Expr, add, div, mul, neg, par, var
 from ..symbolic.gradient import Sampler
-from ..symbolic.traverse import leaves, substitute
+from ..symbolic.traverse import leaves, postorder, substitute
 from .structure import IndexReduced
 
 Point = tuple[Floats, Floats, float]
@@ -54,7 +54,7 @@ def describe(flat: FlatModel, replacements: list[Replacement]) -> str:
     lines: list[str] = []
     for replacement in replacements:
         lines.append("For all values, these equations do not determine their highest derivatives separately:")
-        lines += [f"    {text:<48} {component or '(model)'}  {place}" for text, component, place in replacement.combined]
+        lines += [f"    {text:<48} {where or '(model)'}  {place}" for text, where, place in replacement.combined]
         lines.append(f"The combination without these derivatives: {flat.equation_text(replacement.family, 0)}")
     return "\n".join(lines)
 
@@ -250,34 +250,42 @@ class _Group:
         differentiated = {i: len(self.first.chains[i]) - 1 for i in circuit}
         lift = min(differentiated.values())
         gone = self._lowered(range(self.first.size), lift)
-        best: tuple[int, int, dict[int, Expr]] | None = None
-        independent = True
+        best: tuple[tuple[int, int], int, list[int], Expr] | None = None
+        dependent = False
         for last in circuit:
             if differentiated[last] != lift:
                 continue
             worst, vector = self._null_vector(circuit, last)
-            independent &= vector is None
-            if vector is None or any(
-                leaf.op == "var" and (leaf.value in gone or leaf.value < self.first.size)
-                for leaf in leaves(*vector.values())
-            ):
+            if vector is None:
                 continue
-            if best is None or worst < best[0]:
-                best = worst, last, vector
+            dependent = True
+            held = {leaf.value for leaf in leaves(*vector.values(), op="var")}
+            if held & gone or min(held, default=self.first.size) < self.first.size:
+                continue
+            residual = self._combination(vector, lift, gone)
+            if residual is not None:
+                rating = worst, len(postorder((residual,)))
+                if best is None or rating < best[0]:
+                    best = rating, last, list(vector), residual
         if best is None:
-            return not independent
-        _, last, vector = best
+            return dependent
+        return self._made(best[3], best[1], best[2])
+
+    def _combination(self, vector: dict[int, Expr], lift: int, gone: set[int]) -> Expr | None:
+        """``sum u_i f_i`` without the unknowns `gone`, which it does not depend on; None if it cannot be written."""
         terms = [mul(u, self.forms[self.first.chains[i][lift]]) for i, u in vector.items()]
-        residual = substitute(add(*terms), {var(z): ZERO for z in gone})
-        value, size = self.value(residual), sum(np.abs(self.value(t)) for t in terms)
-        if not np.isfinite(value).all():
-            residual = substitute(add(*terms), {var(z): ONE for z in gone})
+        size = sum(np.abs(self.value(term)) for term in terms)
+        for anything in (ZERO, ONE):
+            try:
+                residual = substitute(add(*terms), {var(z): anything for z in gone})
+            except ZeroDivisionError:
+                continue
             value = self.value(residual)
-        if not np.isfinite(value).all():
-            return True
-        if (np.abs(value) <= ZERO_BELOW * size).all():
-            raise self._repetition(list(vector))
-        return self._made(residual, last, lift, list(vector))
+            if np.isfinite(value).all():
+                if (np.abs(value) <= ZERO_BELOW * size).all():
+                    raise self._repetition(list(vector))
+                return residual
+        return None
 
     def _lowered(self, unknowns: Iterable[int], steps: int) -> set[int]:
         """Local numbers of the unknowns, integrated `steps` times."""
@@ -318,7 +326,7 @@ class _Group:
             return 3, None
         return worst, {i: e.expression for i, e in factors[last].items()}
 
-    def _made(self, residual: Expr, last: int, lift: int, involved: list[int]) -> Replacement:
+    def _made(self, residual: Expr, last: int, involved: list[int]) -> Replacement:
         at = self.first.chains[last][-1]
         replaced = np.array([b.rows[at] for b in self.blocks], np.int64)
         families = [self.index.rows.locate(int(r)) for r in replaced]
@@ -377,7 +385,8 @@ def _subtract(target: dict[int, _Entry], factor: _Entry, row: dict[int, _Entry])
 def dependent_rows(matrix: Floats) -> list[list[int]]:
     """Smallest sets of linearly dependent rows of a square matrix, one for each row too many."""
     a = scaled(matrix)
-    r, order = qr(a.T, mode="r", pivoting=True)
+    factors: Any = qr(a.T, mode="r", pivoting=True)
+    r, order = factors
     diagonal = np.abs(np.diag(r))
     rank = int((diagonal > 1e-9 * max(diagonal[0], 1e-300)).sum())
     out: list[list[int]] = []

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -18,6 +19,7 @@ from scipy.sparse.linalg import splu
 
 from ..dae.strong_components import block_lower_triangular
 from ..errors import StructureError
+from ..language.flat_model import Bools, Family
 from ..language.template import Floats, Ints
 from ..symbolic.expr import Expr
 from ..symbolic.gradient import Sampler
@@ -76,7 +78,7 @@ def _replaced(current: Reduced, index: IndexReduced, replacements: list[Replacem
     rows = np.concatenate([r.rows for r in replacements])
     drop = np.zeros(len(index.rows), bool)
     drop[rows] = True
-    families = []
+    families: list[Family] = []
     offset = index.rows.offset
     for k in range(len(current.families)):
         keep = ~drop[offset[k] : offset[k + 1]]
@@ -155,8 +157,8 @@ def _point(index: IndexReduced, parameters: Parameters, random: np.random.Genera
 
 
 def _singular_at(
-    index: IndexReduced, blocks: _Blocks, alive: np.ndarray, point: Point, k: int, random: np.random.Generator
-) -> tuple[np.ndarray, np.ndarray]:
+    index: IndexReduced, blocks: _Blocks, alive: Bools, point: Point, k: int, random: np.random.Generator
+) -> tuple[Bools, Bools]:
     """Which of the blocks `alive` have a singular Jacobian at a point, and which have a finite one."""
     values, parameters, time = point
     of_row = np.repeat(np.arange(len(alive)), np.diff(blocks.ptr))
@@ -174,7 +176,7 @@ def _singular_at(
         rows = blocks.rows[take & (family_of == f)]
         local = rows - index.rows.offset[f]
 
-        def leaf(node: Expr, family=family, local=local):  # noqa: ANN001, ANN202
+        def leaf(node: Expr, family: Family = family, local: Ints = local) -> Any:
             if node.op == "time":
                 return time
             if node.op == "par":
@@ -196,9 +198,7 @@ def _singular_at(
     return _judge(blocks, alive, of_row, i, j, v)
 
 
-def _judge(
-    blocks: _Blocks, alive: np.ndarray, of_row: Ints, i: Ints, j: Ints, v: Floats
-) -> tuple[np.ndarray, np.ndarray]:
+def _judge(blocks: _Blocks, alive: Bools, of_row: Ints, i: Ints, j: Ints, v: Floats) -> tuple[Bools, Bools]:
     n, size = len(alive), np.diff(blocks.ptr)
     finite = np.ones(n, bool)
     finite[of_row[i[~np.isfinite(v)]]] = False

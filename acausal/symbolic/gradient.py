@@ -23,9 +23,7 @@ class Sampler:
         opaque: called for the value of each opaque function.
     """
 
-    def __init__(
-        self, leaf: Callable[[Expr], Any], branch: Callable[[], bool], opaque: Callable[[], float]
-    ) -> None:
+    def __init__(self, leaf: Callable[[Expr], Any], branch: Callable[[], bool], opaque: Callable[[], float]) -> None:
         self.leaf = leaf
         self.branch = branch
         self.opaque = opaque

@@ -9,13 +9,29 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-import acausal as ac
 import numpy as np
+
+import acausal as ac
 
 DIRECTORY = Path(__file__).parent
 _FUNCTIONS: dict[str, Any] = {
     name: getattr(ac, name)
-    for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "log10", "atan", "tanh", "abs", "sign", "mod", "where", "der")
+    for name in (
+        "sin",
+        "cos",
+        "tan",
+        "sqrt",
+        "exp",
+        "log",
+        "log10",
+        "atan",
+        "tanh",
+        "abs",
+        "sign",
+        "mod",
+        "where",
+        "der",
+    )
 }
 
 

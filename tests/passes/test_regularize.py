@@ -1,0 +1,314 @@
+"""Systems whose structure looks regular although equations hide a dependence."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Array, Component, Connector, Equations, Flow, Parameter, Potential, Variable, connect, der
+from acausal.errors import StructureError
+
+
+class Coupled(Component):
+    """A capacitor between two nodes, with its current written at both (the transistor amplifier in small)."""
+
+    C: Parameter = Parameter(1e-3)
+    a: Variable = Variable(start=1.0)
+    b: Variable = Variable(start=0.0)
+
+    def equations(self) -> Equations:
+        yield self.C * (der(self.a) - der(self.b)) == -self.a + ac.sin(ac.time)
+        yield self.C * (der(self.b) - der(self.a)) == -2 * self.b
+
+
+def test_coupled_derivatives_become_a_constraint() -> None:
+    system = ac.compile(Coupled())
+    report = system.report()
+    assert report.structural_index == 1
+    assert report.states == 1
+    solution = system.simulate(1.0, rtol=1e-9)
+    t = np.asarray(solution.t)
+    assert np.allclose(solution["a"] + 2 * solution["b"], np.sin(t), atol=1e-12)
+
+
+def test_same_order_of_different_equations() -> None:
+    class Mixed(Component):
+        """``x' + y' = -x`` and ``x + y = sin t``: the second, differentiated, has the derivatives of the first."""
+
+        x: Variable = Variable(start=1.0)
+        y: Variable = Variable(start=0.0)
+
+        def equations(self) -> Equations:
+            yield der(self.x) + der(self.y) == -self.x
+            yield self.x + self.y == ac.sin(ac.time)
+
+    system = ac.compile(Mixed())
+    assert system.report().states == 0
+    solution = system.simulate(2.0)
+    t = np.asarray(solution.t)
+    assert np.allclose(solution["x"], -np.cos(t), atol=1e-12)
+    assert np.allclose(solution["y"], np.sin(t) + np.cos(t), atol=1e-12)
+
+
+def test_coefficients_that_depend_on_time() -> None:
+    class Varying(Component):
+        """``x' + t y' = 0`` and ``x + t y = sin t``: y = cos t / -1 (Tan, Nedialkov and Pryce 2017, example 1)."""
+
+        x: Variable = Variable(start=0.0)
+        y: Variable = Variable(start=1.0)
+
+        def equations(self) -> Equations:
+            yield der(self.x) + ac.time * der(self.y) == 0
+            yield self.x + ac.time * self.y == ac.sin(ac.time)
+
+    system = ac.compile(Varying())
+    assert system.report().states == 0
+    solution = system.simulate(2.0)
+    t = np.asarray(solution.t)
+    assert np.allclose(solution["y"], np.cos(t), atol=1e-12)
+    assert np.allclose(solution["x"], np.sin(t) - t * np.cos(t), atol=1e-12)
+
+
+def test_coefficients_that_depend_on_variables() -> None:
+    class Product(Component):
+        """Both equations hold the derivative of x*y, with different factors."""
+
+        x: Variable = Variable(start=2.0, fixed=True)
+        y: Variable = Variable(start=1.0)
+
+        def equations(self) -> Equations:
+            yield self.y * der(self.x) + self.x * der(self.y) == 0
+            yield self.x * self.y * der(self.x) + self.x**2 * der(self.y) == self.x - 2 * self.y
+
+    system = ac.compile(Product())
+    report = system.report()
+    assert report.states == 1
+    solution = system.simulate(1.0)
+    assert np.allclose(solution["x"], 2 * solution["y"], atol=1e-8)
+    assert np.allclose(solution["x"], 2.0, atol=1e-8)
+
+
+def test_different_orders() -> None:
+    class Robot(Component):
+        """The first equation is met by the second derivative of the third."""
+
+        x: Variable = Variable(start=0.0)
+        y: Variable = Variable(start=1.0)
+        z: Variable = Variable(start=0.0)
+
+        def equations(self) -> Equations:
+            yield der(der(self.x)) + der(der(self.y)) == -self.z
+            yield der(self.z) == self.x
+            yield self.x + self.y == ac.cos(ac.time)
+
+    system = ac.compile(Robot())
+    assert system.report().states == 0
+    solution = system.simulate(1.0)
+    t = np.asarray(solution.t)
+    assert np.allclose(solution["z"], np.cos(t), atol=1e-12)
+    assert np.allclose(solution["x"], -np.sin(t), atol=1e-12)
+
+
+class Pin(Connector):
+    """An electrical pin."""
+
+    v: Potential = Potential()
+    i: Flow = Flow()
+
+
+class NodeCapacitor(Component):
+    """A capacitor that differentiates the potentials of its pins."""
+
+    C: Parameter = Parameter(1e-6)
+    p: Pin = Pin()
+    n: Pin = Pin()
+
+    def equations(self) -> Equations:
+        yield self.p.i == self.C * (der(self.p.v) - der(self.n.v))
+        yield self.p.i + self.n.i == 0
+
+
+class NodeResistor(Component):
+    """A resistor."""
+
+    R: Parameter = Parameter(1e3)
+    p: Pin = Pin()
+    n: Pin = Pin()
+
+    def equations(self) -> Equations:
+        yield self.p.v - self.n.v == self.R * self.p.i
+        yield self.p.i + self.n.i == 0
+
+
+class Ground(Component):
+    """Potential zero."""
+
+    p: Pin = Pin()
+
+    def equations(self) -> Equations:
+        yield self.p.v == 0
+
+
+class Source(Component):
+    """A potential given over time."""
+
+    p: Pin = Pin()
+
+    def equations(self) -> Equations:
+        yield self.p.v == ac.sin(ac.time)
+
+
+class Stage(Component):
+    """A coupling capacitor into a divider: neither end of the capacitor is held."""
+
+    C: Parameter = Parameter(1e-6)
+    c: NodeCapacitor = NodeCapacitor(C=C)
+    r1: NodeResistor = NodeResistor()
+    r2: NodeResistor = NodeResistor()
+    input: Pin = Pin()
+    g: Pin = Pin()
+
+    def equations(self) -> Equations:
+        yield connect(self.input, self.r1.p)
+        yield connect(self.r1.n, self.c.p)
+        yield connect(self.c.n, self.r2.p)
+        yield connect(self.r2.n, self.g)
+
+
+class Stages(Component):
+    """Many such stages in parallel, fed by one source."""
+
+    n: int = 3
+    stage: Array[Stage] = Array(Stage(), "n")
+    ground: Ground = Ground()
+    source: Source = Source()
+
+    def equations(self) -> Equations:
+        yield connect(self.source.p, self.stage.input)
+        yield connect(self.ground.p, self.stage.g)
+
+
+@pytest.mark.parametrize("n", [1, 5, 2000])
+def test_many_equal_blocks(n: int) -> None:
+    system = ac.compile(Stages(n=n))
+    report = system.report()
+    assert report.states == n
+    assert report.seconds["index reduction"] < 10
+
+
+def test_dependent_parameters_do_not_hide_the_dependence() -> None:
+    class Part(Component):
+        """A quantity stored."""
+
+        C: Parameter = Parameter(1.0)
+
+    class Bound(Component):
+        """The capacitance reaches the two equations over different parameters."""
+
+        C: Parameter = Parameter(2.0)
+        one: Part = Part(C=C)
+        two: Part = Part(C=C)
+        a: Variable = Variable(start=1.0)
+        b: Variable = Variable(start=0.0)
+
+        def equations(self) -> Equations:
+            yield self.one.C * (der(self.a) - der(self.b)) == -self.a
+            yield self.two.C * (der(self.b) - der(self.a)) == -2 * self.b
+
+    assert ac.compile(Bound()).report().states == 1
+
+
+@pytest.mark.parametrize("n", [4, 12])
+def test_a_floating_network_of_capacitors(n: int) -> None:
+    class Node(Component):
+        """A node with a leak."""
+
+        G: Parameter = Parameter(1.0)
+        v: Variable = Variable(start=1.0)
+        i: Variable = Variable()
+
+        def equations(self) -> Equations:
+            yield self.i == self.G * self.v
+
+    class Network(Component):
+        """A ring of capacitors over n nodes: the sum of all charges is not held by any of them."""
+
+        n: int = 4
+        node: Array[Node] = Array(Node(), "n")
+
+        def equations(self) -> Equations:
+            for k in range(self.n):
+                a, b, c = self.node[k], self.node[(k + 1) % self.n], self.node[k - 1 if k else self.n - 1]
+                yield (1 + k) * (der(a.v) - der(b.v)) + (k or self.n) * (der(a.v) - der(c.v)) == -a.i + ac.sin(
+                    ac.time + k
+                )
+
+    system = ac.compile(Network(n=n))
+    assert system.report().states == n - 1
+    solution = system.simulate(0.5, rtol=1e-8)
+    t = np.asarray(solution.t)
+    total = np.sum([solution[f"node[{k}].v"] for k in range(n)], axis=0)
+    assert np.allclose(total, np.sum([np.sin(t + k) for k in range(n)], axis=0), atol=1e-9)
+
+
+def test_a_repeated_equation_is_named() -> None:
+    class Twice(Component):
+        """The second equation is the first one, multiplied."""
+
+        x: Variable = Variable()
+        y: Variable = Variable()
+
+        def equations(self) -> Equations:
+            yield self.x + 2 * self.y == 3
+            yield 2 * self.x + 4 * self.y == 6
+
+    with pytest.raises(StructureError, match="follows from") as info:
+        ac.compile(Twice())
+    assert len(info.value.equations) == 2
+    assert "test_regularize.py" in str(info.value)
+
+
+def test_a_contradiction_is_named() -> None:
+    class Contradiction(Component):
+        """The left sides are dependent, the right sides are not."""
+
+        x: Variable = Variable()
+        y: Variable = Variable()
+
+        def equations(self) -> Equations:
+            yield self.x + 2 * self.y == 3
+            yield 2 * self.x + 4 * self.y == ac.time
+
+    with pytest.raises(StructureError, match="combination") as info:
+        ac.compile(Contradiction())
+    assert "x + 2*y" in str(info.value)
+
+
+def test_coefficients_with_the_derivatives_themselves() -> None:
+    class Nonlinear(Component):
+        """Two functions of one combination of derivatives."""
+
+        x: Variable = Variable(start=1.0)
+        y: Variable = Variable(start=1.0)
+
+        def equations(self) -> Equations:
+            yield (der(self.x) + der(self.y)) ** 3 + self.x == 2
+            yield ac.sin(der(self.x) + der(self.y)) + self.y == 1
+
+    with pytest.raises(StructureError, match="new variable"):
+        ac.compile(Nonlinear())
+
+
+def test_saturation_is_not_singular() -> None:
+    class Saturated(Component):
+        """The slope of the limiter is zero at the start, which is no dependence."""
+
+        x: Variable = Variable(start=5.0)
+        y: Variable = Variable(start=5.0)
+
+        def equations(self) -> Equations:
+            yield ac.clip(self.x, -1, 1) + self.y == 2.5
+            yield ac.where(self.y > 1, self.y, 0.1 * self.x) + 0.5 * self.x == 3
+
+    assert ac.compile(Saturated()).report().unknowns == 2
