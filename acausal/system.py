@@ -27,6 +27,7 @@ from .symbolic.expr import Expr
 from .symbolic.printing import path_text
 
 if TYPE_CHECKING:
+    from .analysis.linearize import StateSpace
     from .simulation.solution import Solution
 
 
@@ -254,6 +255,18 @@ class System:
         import jax
 
         return jax.jacfwd(lambda y: self.vector_field(t, y, parameters))(x)
+
+    def linearize(self, t: float = 0.0, x: Any = None, **options: Any) -> StateSpace:
+        """State-space matrices at time t and states x; see `acausal.analysis.linearize.linearize`."""
+        from .analysis.linearize import linearize
+
+        return linearize(self, t, x, **options)
+
+    def steady_state(self, **options: Any) -> dict[str, float]:
+        """Values of all variables where nothing changes; see `acausal.analysis.steady_state.steady_state`."""
+        from .analysis.steady_state import steady_state
+
+        return steady_state(self, **options)
 
     # ---- running --------------------------------------------------------------------------------------------------
     def simulate(

@@ -1,0 +1,1 @@
+"""Analysis of compiled systems: linearization and steady states."""

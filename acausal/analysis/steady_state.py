@@ -1,0 +1,69 @@
+"""Steady states: where all derivatives vanish."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import SimulationError
+
+if TYPE_CHECKING:
+    from ..system import System
+
+
+def steady_state(
+    system: System,
+    *,
+    t: float = 0.0,
+    parameters: Mapping[str, Any] | None = None,
+    guess: Any = None,
+    tolerance: float = 1e-10,
+) -> dict[str, float]:
+    """Values of all variables at a point where the derivatives of all states are zero.
+
+    The root is sought from the start of the model (or `guess`) by damped Gauss-Newton steps of minimum norm, with
+    invariants as further equations; of a continuum of steady states the nearest one is found.
+
+    Args:
+        system: a compiled model.
+        t: time at which sources are evaluated [s].
+        parameters: dotted name to value.
+        guess: states to start from (n_x,).
+        tolerance: largest relative residual.
+
+    Returns:
+        dotted name to value, for every variable of the model.
+
+    Raises:
+        SimulationError: none was found; the states that do not settle are named.
+    """
+    from ..lowering.initial_numeric import gauss_newton
+    from ..lowering.numeric import NumericRun
+
+    low = system.lowered
+    x0, w0, p = (np.asarray(a, float) for a in system.initialize(t, parameters))
+    x = x0 if guess is None else np.asarray(guess, float)
+    free = np.arange(low.n_x)
+    scale = np.concatenate([low.x_nominal, low.w_nominal])
+
+    def residual(y: Any) -> tuple[Any, Any]:
+        run = NumericRun(low, t, y[: low.n_x], y[low.n_x :], p, free)
+        g, dg = run.families(low.schedule.invariants)
+        value = np.concatenate([run.value[low.dx_ids], run.residual[0], g])
+        return value, np.concatenate([run.gradient[low.dx_ids], run.residual[1], dg]) * scale
+
+    y, left = gauss_newton(residual, np.concatenate([x, w0]), scale)
+    if not np.max(left, initial=0.0) <= tolerance:
+        names = [*system.states, *(f"the equation of {n}" for n in system.algebraics)]
+        worst = [f"`{names[i]}`" for i in np.argsort(-np.nan_to_num(left, nan=np.inf))[:5] if i < len(names)]
+        raise SimulationError(
+            f"`{system.name}` has no steady state near the given start: {', '.join(worst)} keep changing (largest relative "
+            f"residual {np.max(left):.2g}). Try another `guess`, or simulate until it settles"
+        )
+    run = NumericRun(low, t, y[: low.n_x], y[low.n_x :], p, free)
+    representative, sign = system.observed_ids
+    names = system.stages.flat.names.all_variables
+    values = np.where(sign == 0, 0.0, sign * run.value[representative])
+    return {name: float(values[i]) for i, name in enumerate(names)}
