@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -26,7 +27,8 @@ class BlackBox:
     def partial(self, index: int, args: tuple[Expr, ...]) -> Expr:
         """Partial derivative with respect to argument `index`, as an expression."""
         if index not in self._partials:
-            self._partials[index] = BlackBox(_partial(self.function, index), f"∂{index}{self.name}", (*self.order, index))
+            derivative = _partial(self.function, index)
+            self._partials[index] = BlackBox(derivative, f"∂{index}{self.name}", (*self.order, index))
         return intern_node("call", args, self._partials[index])
 
     def evaluate(self, *args: Any, xp: Any) -> Any:
@@ -73,7 +75,7 @@ def table(x: Sequence[float], y: Sequence[float], *, name: str = "table") -> Bla
     """
     if len(x) != len(y) or len(x) < 2:
         raise ValueError(f"table needs as many y as x and at least two points, got {len(x)} and {len(y)}")
-    if any(not b > a for a, b in zip(x[:-1], x[1:], strict=True)):
+    if any(not b > a for a, b in itertools.pairwise(x)):
         raise ValueError("table: x must increase strictly")
     xs, ys = tuple(map(float, x)), tuple(map(float, y))
 

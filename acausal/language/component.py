@@ -536,7 +536,7 @@ def _modify_one(given: C, effective: Component, parts: list[str], value: Any, pa
             return with_modifications(given, {head: Array(changed, below._count, **below._values)})
         return with_modifications(given, {head: changed})
     if not isinstance(child, Component):
-        raise DeclarationError(f"`{path}`: `{head}` is a list of components: give a new list, {head}=[...] {call_site()}")
+        raise DeclarationError(f"`{path}`: `{head}` is a list of components: give a new list {call_site()}")
     return with_modifications(given, {head: _modify_one(below or _bare(child), child, parts[1:], value, path)})
 
 

@@ -78,8 +78,8 @@ def _fit(a: Ints, b: Ints, item: Connect, origin: Origin) -> tuple[Ints, Ints]:
 
         names = ", ".join(path_text(p) for p in item.paths)
         raise ConnectError(
-            f"connect({names}): slices of {a.shape[1]} and {b.shape[1]} elements do not fit; both need as many elements, or "
-            f"one of them must be a single connector {origin}"
+            f"connect({names}): slices of {a.shape[1]} and {b.shape[1]} elements do not fit; both need as many, "
+            f"or one of them must be a single connector {origin}"
         )
     a, b = np.broadcast_arrays(a, b)
     return a.ravel(), b.ravel()

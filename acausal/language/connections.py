@@ -33,8 +33,8 @@ def connect(first: Connector | Expr, second: Connector | Expr, *more: Connector 
     for end, kind in zip(ends[1:], kinds[1:], strict=True):
         if (kind is None) != (kinds[0] is None) or (kind is not None and not _alike(kind, kinds[0])):
             raise ConnectError(
-                f"connect({_text(first)}, {_text(end)}): {_name(kinds[0])} and {_name(kind)} are unlike; both ends must "
-                f"be connectors with the same potentials and flows, or both signals {call_site()}"
+                f"connect({_text(first)}, {_text(end)}): {_name(kinds[0])} and {_name(kind)} are unlike; both ends "
+                f"must be connectors with the same potentials and flows, or both signals {call_site()}"
             )
     return Connect(tuple(_path(end) for end in ends), kinds)
 

@@ -60,6 +60,8 @@ def start(
 class _Arithmetic:
     """Declarations can be used in expressions of the class body they stand in (dependent parameters, bindings)."""
 
+    __array_ufunc__ = None  # numbers of numpy leave the operation to us
+
     def __acausal_expr__(self) -> Expr:
         return intern_node("declared", (), self)
 

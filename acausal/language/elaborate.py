@@ -124,8 +124,8 @@ class Elaborator:
                 self._bind(cls, name, value, is_start=False)
             elif isinstance(value, (list, tuple)):
                 raise DeclarationError(
-                    f"`{self._where((name,))}` is one parameter but was given {len(value)} values; a sequence has its place "
-                    "in Array(component, n, name=[...])"
+                    f"`{self._where((name,))}` is one parameter but was given {len(value)} values; a sequence has its "
+                    f"place in Array(component, n, {name}=[...])"
                 )
             else:
                 out.par[k] = value
@@ -158,7 +158,7 @@ class Elaborator:
         else:
             level, expression = len(self.stack) - 1, in_scope(as_expr(value), cls)
         frame = self.stack[level]
-        path = tuple(part for f in self.stack[level + 1 :] for part in f.step) + (name,)
+        path = (*(part for f in self.stack[level + 1 :] for part in f.step), name)
         kind = "start" if is_start else "parameter"
         origin = Origin(frame.cls.__qualname__, *frame.cls._source, kind)
         frame.bindings.append(Binding(path, expression, is_start, origin))
@@ -209,7 +209,8 @@ class Elaborator:
                 template.connections.append((item, origin))
         for item, origin in _run(scope, "initial_equations"):
             if not isinstance(item, Equation):
-                raise DeclarationError(f"initial_equations() of `{type(component).__name__}` yields a connect(): {origin}")
+                cls = type(component).__name__
+                raise DeclarationError(f"initial_equations() of `{cls}` yields a connect(), use equations() {origin}")
             template.initial.append(TemplateEquation(item.lhs, item.rhs, origin))
 
     def _where(self, step: Path) -> str:
@@ -245,14 +246,14 @@ def in_scope(expression: Expr, cls: type[Component]) -> Expr:
             declaration: Declaration = leaf.value
             if declaration.name not in cls._declarations:
                 raise DeclarationError(
-                    f"a modification in the body of `{cls.__name__}` refers to `{declaration.name or '?'}`, which is not a "
-                    f"field of that class ({cls._source[0]}:{cls._source[1]})"
+                    f"a modification in the body of `{cls.__name__}` refers to `{declaration.name or '?'}`, which is "
+                    f"not a field of that class ({cls._source[0]}:{cls._source[1]})"
                 )
             mapping[leaf] = symbol((declaration.name,))
         elif leaf.op == "symbol":
             raise DeclarationError(
-                f"`{leaf}` is used in a modification in `{cls.__name__}`: refer to the parameter as it is declared in the "
-                "class body (without `self.`), or write an equation"
+                f"`{leaf}` is used in a modification in `{cls.__name__}`: refer to the parameter as it is declared in "
+                "the class body (without `self.`), or write an equation"
             )
     return substitute(expression, mapping)
 
@@ -293,8 +294,8 @@ def _reject_unresolved(component: Any, path: Path) -> None:
         inner = value.value if isinstance(value, Start) else value
         if isinstance(inner, (Expr, Declaration)):
             raise DeclarationError(
-                f"`{path_text((*path, name))}` of the model was given the expression `{as_expr(inner)}`: outside a class body "
-                "give numbers; an expression of other parameters belongs into the class body that declares them"
+                f"`{path_text((*path, name))}` of the model was given the expression `{as_expr(inner)}`: outside a "
+                "class body give numbers; an expression of parameters belongs into the class body that declares them"
             )
         _reject_unresolved(value, (*path, name))
 
@@ -316,7 +317,7 @@ def _element_mods(element: Component, values: dict[str, Any], i: int, n: int, na
     from .component import with_modifications
 
     picked = {k: _pick(v, i, n, f"{name}.{k}") for k, v in {**element.__dict__["_mods"], **values}.items()}
-    bound = {k: v for k, v in picked.items() if isinstance(v, Bound) or (isinstance(v, Start) and isinstance(v.value, Bound))}
+    bound = {k: v for k, v in picked.items() if isinstance(v.value if isinstance(v, Start) else v, Bound)}
     copy = with_modifications(element, {k: v for k, v in picked.items() if k not in bound})
     copy.__dict__["_mods"].update(bound)
     return copy
@@ -341,7 +342,10 @@ def _run(scope: Component, method: str) -> Any:
     generator = getattr(scope, method)()
     cls = type(scope)
     if not isinstance(generator, types.GeneratorType):
-        raise DeclarationError(f"`{cls.__name__}.{method}` must be a generator: `yield` each equation, do not return a list")
+        raise DeclarationError(
+            f"`{cls.__name__}.{method}` must be a generator: `yield` each equation, do not return a list "
+            f"({cls._source[0]}:{cls._source[1]})"
+        )
     for item in generator:
         file, line, owner = _position(generator)
         kind = "initial" if method != "equations" else "connect" if isinstance(item, Connect) else "equation"
@@ -350,7 +354,7 @@ def _run(scope: Component, method: str) -> Any:
             hint = (
                 "one side of `==` must be a variable or expression of the component"
                 if isinstance(item, bool)
-                else "yield `lhs == rhs` or `connect(a, b)`; delegate to a base class with `yield from super().equations()`"
+                else "yield `lhs == rhs` or `connect(a, b)`; the base class's with `yield from super().equations()`"
             )
             raise DeclarationError(f"`{owner}.{method}` yields {item!r} at {file}:{line}: {hint}")
         yield item, origin

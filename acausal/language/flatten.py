@@ -77,7 +77,6 @@ class Flattener:
                 inherited[slot.name] = bases
         for slot in template.children.values():
             if slot.role == "outer":
-                self._check_outer(visit, slot.name, slot.templates[0])
                 continue
             for prefix, child, v0, p0, n in slot.parts():
                 k = np.arange(n)
@@ -94,18 +93,24 @@ class Flattener:
 
         found = visit.outer.get(name)
         where = path_text((*visit.path, name))
+        cls = visit.template.cls
+        place = f"({cls.__name__}, {cls._source[0]}:{cls._source[1]})"
         if found is None:
             raise DeclarationError(
-                f"`{where}` is declared `outer`, but no enclosing component declares an `inner` of that name: add "
-                f"`{name}: {wanted.cls.__name__} = ac.inner({wanted.cls.__name__}())` to the model"
+                f"`{where}` is declared `outer` {place}, but no enclosing component declares an `inner` of that name: "
+                f"add `{name}: {wanted.cls.__name__} = ac.inner({wanted.cls.__name__}())` to the model"
             )
         if not issubclass(found[2].cls, wanted.cls):
             raise DeclarationError(
-                f"`{where}`: the enclosing inner `{name}` is a `{found[2].cls.__name__}`, not a `{wanted.cls.__name__}`"
+                f"`{where}`: the enclosing inner `{name}` is a `{found[2].cls.__name__}`, not a "
+                f"`{wanted.cls.__name__}` as its outer declaration says {place}"
             )
 
     def _emit(self, visit: Visit) -> None:
         template = visit.template
+        for slot in template.children.values():
+            if slot.role == "outer":
+                self._check_outer(visit, slot.name, slot.templates[0])
         if template.is_connector:
             self.graph.add_connectors(template, visit.var_base, visit.path)
         for equation in template.equations:
@@ -140,12 +145,14 @@ class Flattener:
         m = len(visit.var_base)
         size = int(np.prod(form.shape, dtype=np.int64))
         columns = [self._broadcast(self._ids(visit, path), m, form.shape) for path, _ in form.variables]
-        parameters = [self._broadcast(self._ids(visit, path, parameter=True), m, form.shape) for path in form.parameters]
+        found = [self._ids(visit, path, parameter=True) for path in form.parameters]
+        parameters = [self._broadcast(ids, m, form.shape) for ids in found]
         source = self._source(visit, equation.origin, max(size, 1))
         orders = tuple(order for _, order in form.variables)
         key = (form.residual, orders, initial)
         self.residuals[key] = form
-        self.rows.setdefault(key, []).append((_stack(columns, m * size), _stack(parameters, m * size), source, m * size))
+        n = m * size
+        self.rows.setdefault(key, []).append((_stack(columns, n), _stack(parameters, n), source, n))
 
     @staticmethod
     def _broadcast(ids: Ints, m: int, shape: tuple[int, ...]) -> Ints:
@@ -171,8 +178,8 @@ class Flattener:
             reference = visit.template.resolve(leaf.value)
             if reference.declaration is None or reference.declaration.kind != Kind.PARAMETER:
                 raise DeclarationError(
-                    f"`{leaf}` in the value of `{_text(visit.path, binding.path)}` is not a parameter: values and start "
-                    f"values depend on parameters only {binding.origin}"
+                    f"`{leaf}` in the value of `{_text(visit.path, binding.path)}` is not a parameter: values and "
+                    f"start values depend on parameters only {binding.origin}"
                 )
             mapping[leaf] = par(len(columns))
             columns.append(self._broadcast(self._ids(visit, leaf.value, parameter=True), m, shape))
@@ -280,7 +287,8 @@ def flatten(model: Component) -> FlatModel:
     return FlatModel(
         root=template, model_name=type(model).__name__, n_var=template.var_count, n_par=template.par_count,
         derivative_of=derivative_of, parent=parent, families=families, initial=initial,
-        alias_a=joined.a, alias_b=joined.b, alias_sign=joined.sign, alias_source=joined.source, alias_ordinal=joined.ordinal,
+        alias_a=joined.a, alias_b=joined.b, alias_sign=joined.sign,
+        alias_source=joined.source, alias_ordinal=joined.ordinal,
         zero=joined.zero, zero_source=joined.zero_source, zero_ordinal=joined.zero_ordinal,
         par_value=attributes.par, par_assignments=walker.par_assignments,
         start=np.pad(attributes.start, (0, pad), constant_values=np.nan),

@@ -129,6 +129,13 @@ class Expr:
             "wrap a JAX function with acausal.function"
         )
 
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Any:
+        """Arithmetic with numbers of numpy; arrays and numpy's functions are refused."""
+        name = _UFUNCS.get(ufunc.__name__)
+        if name is not None and method == "__call__" and not kwargs and all(not getattr(i, "ndim", 0) for i in inputs):
+            return getattr(as_expr(inputs[0]), name)(inputs[1])
+        return self.__array__()
+
     __jax_array__ = None  # type: ignore[assignment]
 
     def __iter__(self) -> NoReturn:
@@ -159,6 +166,11 @@ class Expr:
     def __repr__(self) -> str:
         return f"Expr({self})"
 
+
+_UFUNCS: Final = {
+    "add": "__add__", "subtract": "__sub__", "multiply": "__mul__", "divide": "__truediv__", "power": "__pow__",
+    "less": "__lt__", "less_equal": "__le__", "greater": "__gt__", "greater_equal": "__ge__", "equal": "__eq__",
+}  # fmt: skip
 
 Operand = Any
 """What arithmetic accepts beside an expression: a number, or a declaration of the class body (`Parameter`, ...)."""

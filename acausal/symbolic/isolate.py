@@ -72,6 +72,8 @@ def _invert(residual: Expr, unknown: Expr) -> Expr | None:
         elif node.op == "mul":
             other = div(other, node.args[1 - i])
         elif node.op == "div":
+            if i == 1 and other is ZERO:  # a quotient is zero for no finite denominator
+                return None
             other = other * node.args[1] if i == 0 else div(node.args[0], other)
         else:
             inverse = OPERATORS[node.op].inverse if node.op in OPERATORS else None

@@ -75,7 +75,7 @@ def _node_text(node: Expr, wrap: Callable[[Expr, int], str], leaf: Callable[[Exp
     if op == "pow":
         return f"{wrap(args[0], 6)}**{wrap(args[1], 5)}", 5
     if op in _INFIX:
-        low = _PREC[op] + 1
+        low = 1  # comparisons are put in parentheses inside & and |, as Python needs it
         return f"{wrap(args[0], low)} {_INFIX[op]} {wrap(args[1], low)}", _PREC[op]
     if op == "not":
         return f"~{wrap(args[0], 5)}", 5

@@ -140,7 +140,8 @@ def test_currents_of_the_divider() -> None:
     import jax.numpy as jnp
 
     values = system.lowered.observe(0.0, jnp.zeros(0), jnp.zeros(0), system.parameter_vector())
-    at = {n: float(values[int(system.index_of(n))]) for n in ("divider.top.i", "divider.middle.v", "source.i", "ground.p.i")}
+    names = ("divider.top.i", "divider.middle.v", "source.i", "ground.p.i")
+    at = {n: float(values[int(system.index_of(n))]) for n in names}
     assert at == pytest.approx({"divider.top.i": 2.0, "divider.middle.v": 2.0, "source.i": -2.0, "ground.p.i": 0.0})
 
 
