@@ -69,7 +69,7 @@ def drive(system: Any, inputs: Mapping[str, Any]) -> tuple[DrivenLowered, tuple[
     names = tuple(system.input_names)
     lowered = system.lowered
     places: list[int] = []
-    signals: list[Callable[[Any, Any], Any]] = []
+    signals: list[Callable[..., Any]] = []
     data: list[Any] = []
     for name, value in inputs.items():
         if name not in names:
@@ -117,5 +117,5 @@ def _table(t: Any, table: tuple[Array, Array]) -> Array:
 _OWN = (_constant, _table)
 
 
-def _ignoring(function: Callable[[Any], Any]) -> Callable[[Any, Any], Any]:
+def _ignoring(function: Callable[..., Any]) -> Callable[[Any, Any], Any]:
     return lambda t, _: function(t)

@@ -11,6 +11,7 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
+from jax.core import Tracer
 from jax.extend.core import jaxprs_in_params
 
 from .cache import cache_of
@@ -100,12 +101,12 @@ def jit(fun: Callable[..., Any], *, fusion: bool | None = None, **options: Any) 
 
 def inside_jit() -> bool:
     """Whether operations are being recorded for a compiled program rather than carried out."""
-    return isinstance(jnp.add(0, 0), jax.core.Tracer)
+    return isinstance(jnp.add(0, 0), Tracer)
 
 
 def is_traced(tree: Any) -> bool:
     """Whether a pytree has a traced leaf."""
-    return any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(tree))
+    return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(tree))
 
 
 def compiled_for(owner: Any, key: Any, run: Any, arguments: tuple[Any, ...]) -> tuple[Any, float]:

@@ -90,15 +90,15 @@ class _Wrapped(AbstractWrappedSolver[Any]):
     """What a wrapper passes on to the solver in it."""
 
     @property
-    def term_structure(self) -> Any:
+    def term_structure(self) -> Any:  # pyright: ignore[reportIncompatibleVariableOverride]
         return self.solver.term_structure
 
     @property
-    def interpolation_cls(self) -> Any:  # pyright: ignore[reportIncompatibleVariableOverride]
+    def interpolation_cls(self) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
         return self.solver.interpolation_cls
 
     @property
-    def term_compatible_contr_kwargs(self) -> Any:
+    def term_compatible_contr_kwargs(self) -> Any:  # pyright: ignore[reportIncompatibleVariableOverride]
         return self.solver.term_compatible_contr_kwargs
 
     @property
@@ -128,7 +128,7 @@ class Projected(_Wrapped):
         project: projection of a candidate, for example on the invariants of a mechanism.
     """
 
-    solver: AbstractSolver[Any]
+    solver: AbstractSolver[Any]  # pyright: ignore[reportIncompatibleVariableOverride]
     project: Callable[[Any, Any, Any], Any]
 
     def init(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any) -> Any:
@@ -159,7 +159,7 @@ class WithAlgebraic(_Wrapped):
         solve_algebraic: `(t, x, w_guess, p) -> w`.
     """
 
-    solver: AbstractSolver[Any]
+    solver: AbstractSolver[Any]  # pyright: ignore[reportIncompatibleVariableOverride]
     solve_algebraic: Callable[[Any, Array, Array, Array], Array]
 
     def init(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any) -> Any:

@@ -129,9 +129,9 @@ class Rodas5P(AbstractAdaptiveSolver[None]):
             return u.at[i].set(linear_solver.solve(factors, value)), None
 
         u = jnp.zeros((8, y.shape[0]), y.dtype).at[0].set(linear_solver.solve(factors, first + tableau.D[0] * rate))
-        constants = [jnp.asarray(a[1:], y.dtype) for a in (_COUPLING, tableau.NODES, tableau.D)]
+        coupling, nodes, weights = (jnp.asarray(a[1:], y.dtype) for a in (_COUPLING, tableau.NODES, tableau.D))
         # A loop, not seven copies of the vector field: it compiles in half the time and runs as fast.
-        u, _ = jax.lax.scan(stage, u, (jnp.arange(1, 8), *constants))
+        u, _ = jax.lax.scan(stage, u, (jnp.arange(1, 8), coupling, nodes, weights))
 
         increments = jnp.asarray(np.concatenate([tableau.B[None], tableau.H]), y.dtype) @ u
         y1 = unflatten(y + increments[0])

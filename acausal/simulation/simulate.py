@@ -33,6 +33,9 @@ POINTS = 501
 MAX_STEPS = 1_000_000
 ATOL = 0.1
 """Default absolute tolerance, as a multiple of `rtol`."""
+FIRST_STEP = 1e-6
+"""First step of an adaptive solve, as a part of the time span: the controller raises it tenfold or lowers it fivefold
+a step, so that a better guess would save a few steps, and cost another copy of the vector field to compile."""
 _RESULTS = (
     "successful", "event_occurred", "max_steps_reached", "dt_min_reached", "max_steps_rejected",
     "nonlinear_max_steps_reached", "nonlinear_divergence", "singular", "internal_error",
@@ -107,10 +110,10 @@ def simulate(
         p = (p, numbers)
         w0 = lowered.solve_algebraic(jnp.asarray(t0, float), x0, w0, p) if len(lowered.w_nominal) else w0
     n_x, _, _ = dimensions(lowered)
-    solver = _with_linear_solver(Rodas5P() if solver is None else solver, lowered)
+    method = _with_linear_solver(Rodas5P() if solver is None else solver, lowered)
     points, kind = _output(saveat, t0, t1)
     settings = _Settings(
-        solver=solver,
+        solver=method,
         saveat=kind,
         controller=stepsize_controller,
         has_dt=dt is not None,
@@ -128,7 +131,7 @@ def simulate(
     if inside_jit() or is_traced(arguments):
         run, dynamic, _ = _program(lowered, settings.replace(throw=throw))
         t, x, w, counts, _, _ = run(dynamic, *arguments)
-        return Solution(system, t, x, w, p, stats={**_named(counts, solver), "solver": _name(solver)}, lowered=lowered)
+        return Solution(system, t, x, w, p, stats={**_named(counts, method), "solver": _name(method)}, lowered=lowered)
 
     settings = settings.replace(progress=progress)
     run, dynamic, key = _program(lowered, settings)
@@ -141,9 +144,9 @@ def simulate(
     if not kept.all():
         t, x, w = t[kept], x[kept], w[kept]
     result = _result_name(int(code))
-    stats = {k: int(v) for k, v in _named(counts, solver).items()}
+    stats = {k: int(v) for k, v in _named(counts, method).items()}
     stats |= {"compile_seconds": start_seconds + compile_seconds, "run_seconds": run_seconds}
-    stats |= {"solver": _name(solver), "t_end": float(last[0])}
+    stats |= {"solver": _name(method), "t_end": float(last[0])}
     solution = Solution(system, t, x, w, p, stats=stats, result=result, lowered=lowered)
     if throw and result not in ("successful", "event_occurred"):
         raise SimulationError(explain(system, lowered, result, stats, last, p, float(t1), settings.max_steps))
@@ -201,9 +204,9 @@ def _solve(
     """The pure solve: times, states, tearing variables, counts, result code and the last point."""
     settings = eqx.combine(dynamic, static)
     n_x, n_w, _ = dimensions(lowered)
-    together = isinstance(settings.solver, Rodas5P)
     x_nominal, w_nominal = jnp.asarray(lowered.x_nominal, float), jnp.asarray(lowered.w_nominal, float)
-    if together:
+    together = isinstance(settings.solver, Rodas5P)
+    if isinstance(settings.solver, Rodas5P):
         solver, field, y0, args = _index_one(lowered, settings.solver, x0, w0, p)
         scale = jnp.concatenate([atol * x_nominal, jnp.min(atol) * w_nominal])
     else:
@@ -222,10 +225,8 @@ def _solve(
         if isinstance(controller, diffrax.ConstantStepSize):
             name = _name(settings.solver)
             raise SimulationError(f"`{name}` takes fixed steps here: give the step, `simulate(..., dt=1e-3)`.")
-        dt = _first_step(lowered, t0, t1, x0, w0, p, rtol, atol * x_nominal)
+        dt = FIRST_STEP * (t1 - t0)
     dt = jnp.where(t1 < t0, -jnp.abs(dt), jnp.abs(dt))
-    if isinstance(controller, diffrax.StepTo):
-        dt = None
 
     where: tuple[Any, ...] = settings.saveat
     if where[0] == "points":
@@ -236,7 +237,8 @@ def _solve(
         sub = diffrax.SubSaveAt(ts=points)
     saveat = diffrax.SaveAt(subs=[sub, diffrax.SubSaveAt(t1=True)])
     solved = diffrax.diffeqsolve(
-        diffrax.ODETerm(field), solver, t0, t1, dt, y0, args, saveat=saveat, stepsize_controller=controller,
+        diffrax.ODETerm(field), solver, t0, t1, None if isinstance(controller, diffrax.StepTo) else dt, y0, args,
+        saveat=saveat, stepsize_controller=controller,
         max_steps=settings.max_steps, adjoint=settings.adjoint, event=settings.event, throw=settings.throw,
         progress_meter=diffrax.TextProgressMeter() if settings.progress else diffrax.NoProgressMeter(),
     )  # fmt: skip
@@ -305,23 +307,6 @@ def _follow(lowered: Lowered, t: Array, x: Array, w0: Array, p: Array) -> Array:
         return jnp.where(good, found, w), found
 
     return jax.lax.scan(step, w0, (t, x))[1]
-
-
-def _first_step(
-    lowered: Lowered, t0: Array, t1: Array, x0: Array, w0: Array, p: Array, rtol: Array, atol: Array
-) -> Array:
-    """A cautious first step: one hundredth of the time in which the state would change by its own size.
-
-    Source: Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, II.4, steps a and b of the
-    starting step size, of the states alone. The controller raises it tenfold a step where it can.
-    """
-    span = jnp.abs(t1 - t0)
-    rate = lowered.derivatives(t0, x0, w0, p)[0]
-    scale = atol + rtol * jnp.abs(x0)
-    size, speed = (jnp.sqrt(jnp.mean((v / scale) ** 2)) for v in (x0, rate)) if x0.shape[0] else (0.0, 0.0)
-    small = ~((size > 1e-5) & (speed > 1e-5))
-    guess = jnp.where(small, 1e-6 * span, 0.01 * size / jnp.where(small, 1.0, speed))
-    return jax.lax.stop_gradient(jnp.clip(guess, 1e-12 * span, 1e-3 * span))
 
 
 def _with_linear_solver(solver: Any, lowered: Lowered) -> Any:

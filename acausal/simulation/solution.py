@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.core import Tracer
 
 from acausal.errors import UnknownNameError, nearest
 
@@ -146,14 +147,14 @@ class Solution:
 
     @property
     def _traced(self) -> bool:
-        return any(isinstance(leaf, jax.core.Tracer) for leaf in (self.t, self.x, self.w, self.p))
+        return any(isinstance(leaf, Tracer) for leaf in (self.t, self.x, self.w, self.p))
 
     def _out(self, values: Any) -> Any:
-        return values if isinstance(values, jax.core.Tracer) else np.asarray(values)
+        return values if isinstance(values, Tracer) else np.asarray(values)
 
     def _stack(self, columns: list[Any]) -> Any:
         columns = [c if c.ndim == 2 else c[:, None] for c in columns]
-        return (jnp if any(isinstance(c, jax.core.Tracer) for c in columns) else np).concatenate(columns, axis=1)
+        return (jnp if any(isinstance(c, Tracer) for c in columns) else np).concatenate(columns, axis=1)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -282,7 +283,7 @@ def _observe(lowered: Lowered, indices: Any, t: Any, x: Any, w: Any, p: Any) -> 
     if "observe" not in cache:
 
         def values(indices: Any, t: Any, x: Any, w: Any, p: Any) -> Any:
-            return jax.lax.map(lambda point: lowered.observe(*point, p)[indices], (t, x, w))
+            return jax.lax.map(lambda at: lowered.observe(at[0], at[1], at[2], p)[indices], (t, x, w))
 
         cache["observe"] = jit(values)
     return cache["observe"](indices, t, x, w, p)
