@@ -14,7 +14,7 @@ from .language.component import Component
 from .language.flat_model import FlatModel
 from .language.template import Ints
 from .listing import equation_lines
-from .lowering.initial import TOLERANCE, InitialProblem, solve_initial
+from .lowering.initial import ACCEPTED, InitialProblem, solve_initial
 from .lowering.initial_numeric import solve_numeric
 from .lowering.lowered import Lowered
 from .lowering.numeric import is_concrete
@@ -22,6 +22,7 @@ from .lowering.parameters import ParameterProgram
 from .passes.aliases import Reduced
 from .passes.schedule import Schedule
 from .passes.structure import IndexReduced
+from .precision import enable_double_precision
 from .report import Report, make_report
 from .symbolic.expr import Expr
 from .symbolic.printing import path_text
@@ -67,6 +68,7 @@ class System:
         self.outputs = outputs
         self.cache: dict[Any, Any] = {}
         lowered.attach(self.observed_ids)
+        enable_double_precision()
 
     # ---- names ----------------------------------------------------------------------------------------------------
     @property
@@ -223,7 +225,7 @@ class System:
                 f"`{self.name}`: parameter {', '.join(f'`{n}`' for n in names)} has no value (or is NaN): give it at "
                 "construction or as simulate(parameters={...})"
             )
-        if np.isfinite(values).all() and (not np.size(left) or float(np.max(np.asarray(left))) <= 100 * TOLERANCE):
+        if np.isfinite(values).all() and (not np.size(left) or float(np.max(np.asarray(left))) <= ACCEPTED):
             return
         raise InitializationError(explain_initial(self, np.asarray(x0), np.asarray(w0), np.asarray(left)))
 
