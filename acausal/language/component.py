@@ -71,17 +71,22 @@ class Component:
         )
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("__"):
+        if name.startswith("_"):
             raise AttributeError(name)
         where = f" `{path_of(self)}`" if self.__dict__.get("_path") else ""
-        raise DeclarationError(
-            f"component{where} of class `{type(self).__name__}` has no field `{name}`."
-            f"{nearest(name, field_names(type(self)))}"
+        known = field_names(type(self))
+        hint = nearest(name, known) or f" It has: {', '.join(known)}."
+        raise UnknownFieldError(
+            f"component{where} of class `{type(self).__name__}` has no field `{name}`.{hint} {call_site()}".rstrip()
         )
 
     def __repr__(self) -> str:
         mods = ", ".join(f"{k}={v!r}" for k, v in self.__dict__["_mods"].items())
         return f"{type(self).__name__}({mods})"
+
+
+class UnknownFieldError(DeclarationError, AttributeError):
+    """A field that the class does not have."""
 
 
 class Child:
@@ -283,8 +288,15 @@ def _recorded(cls: type[Component], name: str, function: Any) -> Any:
     """`function`, noting on the instance that it ran, so that a forgotten super().equations() is found."""
 
     def run(self: Any) -> Any:
-        self.__dict__.setdefault(f"_ran_{name}", []).append(cls)
-        return function(self)
+        generator = function(self)
+        if not inspect.isgenerator(generator):
+            code = function.__code__
+            raise DeclarationError(
+                f"`{cls.__name__}.{name}` must be a generator: `yield` each equation, do not return "
+                f"{type(generator).__name__} ({code.co_filename}:{code.co_firstlineno})"
+            )
+        self.__dict__.setdefault(f"_ran_{name}", []).append(cls)  # here, not above: a call alone runs no equation
+        yield from generator
 
     run.__name__, run.__doc__, run.__qualname__ = name, function.__doc__, function.__qualname__
     run.__wrapped__ = function  # type: ignore[attr-defined]
@@ -346,7 +358,8 @@ def _collect_one(
     elif isinstance(value, float) and annotation is not None and "ClassVar" not in str(annotation):
         raise DeclarationError(
             f"`{cls.__name__}.{name}: {annotation} = {value!r}` is a plain float: use `{name}: Parameter = "
-            f"Parameter({value!r})` for a quantity that can change without compiling again"
+            f"Parameter({value!r})` for a quantity that can change without compiling again "
+            f"({cls._source[0]}:{cls._source[1]})"
         )
 
 
@@ -387,9 +400,8 @@ def _checked(cls: type[Component], name: str, value: Any) -> Any:
         return _checked_structural(cls, cls._structural[name], value)
     if name in cls._children:
         return _checked_child(cls, name, value)
-    raise DeclarationError(
-        f"`{cls.__name__}` has no field `{name}` to modify.{nearest(name, field_names(cls))} {call_site()}".rstrip()
-    )
+    hint = nearest(name, field_names(cls)) or f" It has: {', '.join(field_names(cls)) or 'none'}."
+    raise DeclarationError(f"`{cls.__name__}` has no field `{name}` to modify.{hint} {call_site()}".rstrip())
 
 
 def _checked_quantity(cls: type[Component], declaration: Declaration, value: Any) -> Any:
@@ -401,7 +413,7 @@ def _checked_quantity(cls: type[Component], declaration: Declaration, value: Any
         if number is None:
             raise DeclarationError(
                 f"`{cls.__name__}({name}={value!r})`: a parameter takes a number or an expression of parameters of the "
-                f"class body it stands in, not {type(value).__name__} {call_site()}"
+                f"class body it stands in, not `{type(value).__name__}` {call_site()}"
             )
         check_bounds(f"{cls.__name__}.{name}", declaration, number)
         return value
@@ -549,9 +561,6 @@ def _bare(component: C) -> C:
 
 class Connector(Component, partial=True):
     """An interface: potentials (equal over a connection) and flows (sum to zero, positive into the component)."""
-
-    def __init_subclass__(cls, *, partial: bool = False, **kwargs: Any) -> None:
-        super().__init_subclass__(partial=partial, **kwargs)
 
 
 __all__ = ["Array", "Component", "Connector", "Equations", "Self", "inner", "modify", "outer", "redeclare"]

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
+import traceback
 import types
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from ..errors import DeclarationError
+from ..errors import AcausalError, DeclarationError
 from ..symbolic.equation import Equation, Origin
 from ..symbolic.expr import Expr, as_expr, symbol
 from ..symbolic.traverse import leaves, substitute
@@ -341,12 +344,7 @@ def _run(scope: Component, method: str) -> Any:
     """Items yielded by `equations` (or `initial_equations`), each with the source line that yielded it."""
     generator = getattr(scope, method)()
     cls = type(scope)
-    if not isinstance(generator, types.GeneratorType):
-        raise DeclarationError(
-            f"`{cls.__name__}.{method}` must be a generator: `yield` each equation, do not return a list "
-            f"({cls._source[0]}:{cls._source[1]})"
-        )
-    for item in generator:
+    for item in _located(generator, cls, method):
         file, line, owner = _position(generator)
         kind = "initial" if method != "equations" else "connect" if isinstance(item, Connect) else "equation"
         origin = Origin(owner, file, line, kind)
@@ -362,11 +360,26 @@ def _run(scope: Component, method: str) -> Any:
     for base in cls.__mro__:
         if method in base.__dict__ and base not in (Component, Connector, object) and base not in ran:
             overriding = next(c for c in cls.__mro__ if method in c.__dict__)
+            code = overriding.__dict__[method].__wrapped__.__code__
             raise DeclarationError(
-                f"`{overriding.__name__}.{method}` never calls `super().{method}()`, so the equations of "
+                f"`{overriding.__name__}.{method}` never runs `super().{method}()`, so the equations of "
                 f"`{base.__name__}` are lost: begin it with `yield from super().{method}()` "
-                f"({overriding._source[0]}:{overriding._source[1]})"
+                f"({code.co_filename}:{code.co_firstlineno})"
             )
+
+
+def _located(generator: types.GeneratorType[Any, Any, Any], cls: type[Component], method: str) -> Iterator[Any]:
+    """Items of a generator; a TypeError inside (a symbol used as a number or a condition) gets the user's line."""
+    try:
+        yield from generator
+    except (TypeError, ZeroDivisionError) as error:
+        if isinstance(error, AcausalError):
+            raise
+        package = os.path.dirname(os.path.dirname(__file__))
+        frames = [f for f in traceback.extract_tb(error.__traceback__) if not f.filename.startswith(package)]
+        place = f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
+        line = f"\n    {frames[-1].line}" if frames and frames[-1].line else ""
+        raise DeclarationError(f"in `{cls.__name__}.{method}`{place}: {error}{line}") from error
 
 
 def _position(generator: types.GeneratorType[Any, Any, Any]) -> tuple[str, int, str]:
