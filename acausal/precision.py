@@ -18,10 +18,11 @@ def enable_double_precision() -> None:
         return
     if "jax" not in sys.modules:
         os.environ["JAX_ENABLE_X64"] = "1"
+        logging.getLogger("acausal").info(MESSAGE)
     else:
         import jax
 
         if jax.config.read("jax_enable_x64"):
             return
         jax.config.update("jax_enable_x64", True)
-    logging.getLogger("acausal").info(MESSAGE)
+        logging.getLogger("acausal").warning(MESSAGE)

@@ -138,7 +138,9 @@ class System:
                 reduced = self.observed_ids[0][ids]
                 ids = self.stages.index.derivative_of[reduced]
                 if (np.asarray(ids) < 0).any():
-                    raise UnknownNameError(f"the model does not compute `{text}`: its equations do not need that derivative")
+                    raise UnknownNameError(
+                        f"the model does not compute `{text}`: its equations do not need that derivative"
+                    )
             return ids
         ids, is_par = flat.names.find(text)
         if is_par:
@@ -209,7 +211,9 @@ class System:
             values = xp.ravel(xp.broadcast_to(xp.asarray(value, float), np.shape(ids)))
             for k, index in enumerate(np.ravel(ids)):
                 if not sign[index]:
-                    raise InitializationError(f"`{name}` is always zero in this model and cannot be given a start value")
+                    raise InitializationError(
+                        f"`{name}` is always zero in this model and cannot be given a start value"
+                    )
                 overrides[int(representative[index])] = values[k] * int(sign[index])
         return overrides
 

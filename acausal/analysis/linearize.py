@@ -53,8 +53,8 @@ def linearize(
 ) -> StateSpace:
     """State-space matrices of `system` at time `t` and states `x`, by automatic differentiation.
 
-    Inputs are the model's own `Input` fields; `outputs` default to those given to `acausal.compile`. Where the states are
-    bound by invariants (index reduction that kept them), A acts on the constrained coordinates together.
+    Inputs are the model's own `Input` fields; `outputs` default to those given to `acausal.compile`. Where the states
+    are bound by invariants (index reduction that kept them), A acts on the constrained coordinates together.
 
     Args:
         system: a compiled model.
@@ -88,4 +88,5 @@ def linearize(
 
     u0 = jnp.asarray(p)[low.n_p - n_u :]
     (a, b), (c, d) = jax.jit(jax.jacfwd(both, argnums=(0, 1)))(x, u0)
-    return StateSpace(*(np.asarray(m) for m in (a, b, c, d)), system.states, system.input_names, names, np.asarray(x))
+    a, b, c, d = (np.asarray(m) for m in (a, b, c, d))
+    return StateSpace(a, b, c, d, system.states, system.input_names, names, np.asarray(x))

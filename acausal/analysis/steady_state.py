@@ -59,8 +59,8 @@ def steady_state(
         names = [*system.states, *(f"the equation of {n}" for n in system.algebraics)]
         worst = [f"`{names[i]}`" for i in np.argsort(-np.nan_to_num(left, nan=np.inf))[:5] if i < len(names)]
         raise SimulationError(
-            f"`{system.name}` has no steady state near the given start: {', '.join(worst)} keep changing (largest relative "
-            f"residual {np.max(left):.2g}). Try another `guess`, or simulate until it settles"
+            f"`{system.name}` has no steady state near the given start: {', '.join(worst)} keep changing (largest "
+            f"relative residual {np.max(left):.2g}). Try another `guess`, or simulate until it settles"
         )
     run = NumericRun(low, t, y[: low.n_x], y[low.n_x :], p, free)
     representative, sign = system.observed_ids

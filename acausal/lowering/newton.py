@@ -11,8 +11,8 @@ MAX_ITERATIONS = 60
 def newton_root(residual: Callable[[Any], Any], guess: Any, scale: Any) -> Any:
     """Root of `residual`, a function of (n, k) unknowns to (n, k) residuals, independent over the first axis.
 
-    Steps are halved until the residual falls (Deuflhard 2011, Newton Methods for Nonlinear Problems, 3.1). A system that
-    does not converge comes back as nan, so that the failure shows at once.
+    Steps are halved until the residual falls (Deuflhard 2011, Newton Methods for Nonlinear Problems, 3.1). A system
+    that does not converge comes back as nan, so that the failure shows at once.
 
     Args:
         residual: the function.

@@ -111,7 +111,8 @@ def _ordered(flat: FlatModel) -> list[Assignment]:
         if level.max() > sum(len(a.targets) for a in pending):
             k = int(level.argmax())
             raise DeclarationError(
-                f"parameter `{flat.names.parameter(k)}` depends on itself: its value leads back to it through other parameters"
+                f"parameter `{flat.names.parameter(k)}` depends on itself: its value leads back to it through "
+                "other parameters"
             )
     out: list[tuple[int, int, Assignment]] = []
     for i, a in enumerate(pending):

@@ -22,7 +22,8 @@ def input_equations(flat: FlatModel, inputs: Sequence[str], outputs: Sequence[st
     for name in inputs:
         if name not in names:
             raise UnknownNameError(
-                f"`{name}` is not an `Input` of the model `{flat.model_name}` itself (it has: {', '.join(names) or 'none'})."
+                f"`{name}` is not an `Input` of the model `{flat.model_name}` itself (it has: "
+                f"{', '.join(names) or 'none'})."
                 f"{nearest(name, names)}"
             )
     for name in outputs:
