@@ -14,6 +14,7 @@ from .language.component import Component
 from .language.flat_model import FlatModel
 from .language.template import Ints
 from .listing import equation_lines
+from .lowering.bounds import check_parameters
 from .lowering.initial import ACCEPTED, InitialProblem, solve_initial
 from .lowering.initial_numeric import solve_numeric
 from .lowering.lowered import Lowered
@@ -218,17 +219,16 @@ class System:
         return overrides
 
     def check_initial(self, x0: Any, w0: Any, p: Any, left: Any) -> None:
-        """Raise InitializationError unless concrete results of `initialize_with_residual` are a consistent start."""
+        """Check concrete results of `initialize_with_residual`.
+
+        Raises:
+            DeclarationError: a parameter has no value, or one outside its bounds.
+            InitializationError: it is no consistent start.
+        """
         from .report import explain_initial
 
+        check_parameters(self.stages.flat, p)
         values = np.concatenate([np.ravel(np.asarray(a)) for a in (x0, w0, left)])
-        bad_parameter = np.flatnonzero(np.isnan(np.asarray(p)))
-        if len(bad_parameter):
-            names = [self.stages.flat.parameter_name(int(i)) for i in bad_parameter[:5]]
-            raise InitializationError(
-                f"`{self.name}`: parameter {', '.join(f'`{n}`' for n in names)} has no value (or is NaN): give it at "
-                "construction or as simulate(parameters={...})"
-            )
         if np.isfinite(values).all() and (not np.size(left) or float(np.max(np.asarray(left))) <= ACCEPTED):
             return
         raise InitializationError(explain_initial(self, np.asarray(x0), np.asarray(w0), np.asarray(left)))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import breadth_first_order
 
 from ..dae.alias import AliasSets, alias_sets
 from ..language.declarations import STATE_SELECT, Kind
@@ -13,14 +15,22 @@ from ..language.template import Ints
 from ..symbolic.expr import Expr, add, neg, var
 from .specialize import merge, specialize
 
+SHOWN = 8
+"""Equations named with a redundant one."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Redundant:
-    """An alias equation that adds nothing to the others (or contradicts them)."""
+    """An alias equation that adds nothing to the others (or contradicts them).
+
+    Attributes:
+        others: the equations it follows from (or contradicts), each with its component and place.
+    """
 
     text: str
     component: str
     place: str
+    others: tuple[tuple[str, str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,7 +99,8 @@ def eliminate_aliases(flat: FlatModel) -> Reduced:
         families = specialize(families, representative, sign)
         if not any(_alias_sign(f.residual) is not None for f in families):
             break
-    redundant = [_redundant(flat, edges, int(order[e])) for e in sets.redundant_edges]
+    closing = order[np.asarray(sets.redundant_edges, np.int64)]
+    redundant = [_redundant(flat, edges, int(e), closing) for e in closing]
     families = merge([*families, *_kept(edges, np.asarray(sets.kept_pairs))])
     unknown = (representative == np.arange(flat.n_total)) & (sign != 0)
     return Reduced(flat, families, representative, sign, unknown, redundant)
@@ -188,8 +199,26 @@ def _kept(edges: _Edges, pairs: Ints) -> list[Family]:
     return out
 
 
-def _redundant(flat: FlatModel, edges: _Edges, e: int) -> Redundant:
+def _redundant(flat: FlatModel, edges: _Edges, e: int, closing: Ints) -> Redundant:
+    """Edge `e` and the edges that join its ends without those of `closing`."""
+    zero = flat.n_total
+    a, b = edges.a, np.where(edges.sign == 0, zero, edges.b)
+    kept = np.setdiff1d(np.arange(len(a)), closing)
+    graph = coo_matrix((np.ones(len(kept)), (a[kept], b[kept])), shape=(zero + 1, zero + 1)).tocsr()
+    _, before = breadth_first_order(graph, int(a[e]), directed=False)
+    others: list[tuple[str, str, str]] = []
+    at = int(b[e])
+    while at != int(a[e]) and before[at] >= 0 and len(others) < SHOWN:
+        previous = int(before[at])
+        found = kept[((a[kept] == at) & (b[kept] == previous)) | ((a[kept] == previous) & (b[kept] == at))]
+        others.append(_edge(flat, edges, int(found[0])))
+        at = previous
+    return Redundant(*_edge(flat, edges, e), tuple(others))
+
+
+def _edge(flat: FlatModel, edges: _Edges, e: int) -> tuple[str, str, str]:
+    """Text, component and place of one alias equation."""
     a, b, sign = flat.name(int(edges.a[e])), flat.name(int(edges.b[e])), int(edges.sign[e])
     source = flat.sources[int(edges.source[e])]
     text = f"{a} = {'0' if sign == 0 else b if sign > 0 else '-' + b}"
-    return Redundant(text, source.component(int(edges.ordinal[e])), str(source.origin))
+    return text, source.component(int(edges.ordinal[e])), str(source.origin)

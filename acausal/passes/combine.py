@@ -23,6 +23,7 @@ from ..symbolic.differentiate import partial
 from ..symbolic.expr import ONE, ZERO, Expr, add, div, mul, neg, par, var
 from ..symbolic.gradient import Sampler
 from ..symbolic.traverse import leaves, postorder, substitute
+from .places import context
 from .structure import IndexReduced
 
 Point = tuple[Floats, Floats, float]
@@ -346,6 +347,8 @@ class _Group:
         flat, texts = self.index.flat, self._texts(involved)
         lines = [f"`{flat.model_name}` {head}"]
         lines += [f"    {text:<48} {component or '(model)'}  {place}" for text, component, place in texts]
+        written = context(flat, [component for _, component, _ in texts])
+        lines += [written] if written else []
         names = [self.index.name(v) for v in self.first.variables[: self.first.size]]
         return StructureError(
             "\n".join([*lines, tail]),

@@ -11,14 +11,18 @@ from ..dae.incidence import Incidence
 from ..dae.matching import maximum_matching
 from ..errors import StructureError
 from ..language.declarations import Kind
+from ..language.flat_model import FlatModel
 from ..language.template import Ints, Template
 from .aliases import Reduced
+from .places import context
 
 if TYPE_CHECKING:
     from .structure import Rows
 
 SHOWN = 12
 """Equations and unknowns listed per part."""
+PARTS = 3
+"""Parts of one kind."""
 
 
 def singular(reduced: Reduced, rows: Rows, base: Ints, columns: Ints) -> StructureError:
@@ -31,73 +35,131 @@ def singular(reduced: Reduced, rows: Rows, base: Ints, columns: Ints) -> Structu
     graph = Incidence.from_coo(owner, position[base[full.indices]], len(rows), len(columns))
     matching = np.asarray(maximum_matching(graph))
     parts = dulmage_mendelsohn(graph, matching)
+    text = _Text(reduced, rows)
     n_eq = len(rows) + len(reduced.redundant)
-    counts = f"{n_eq} equations for {len(columns)} unknowns" + (", but they cannot be paired" if n_eq == len(columns) else "")
-    lines = [f"`{flat.model_name}` is structurally singular: {counts} (after alias elimination)."]
-    equations: list[str] = []
-    unknowns: list[str] = []
-    components: list[str] = []
-    if reduced.redundant:
-        lines.append("\nOver-determined: these equations repeat or contradict others:")
-        for r in reduced.redundant[:SHOWN]:
-            lines.append(f"    {r.text:<48} {r.component or '(model)'}  {r.place}")
-            equations.append(r.text)
-            components.append(r.component)
-    for row_set, column_set in connected_parts(graph, parts.over_rows, parts.over_columns)[:3]:
-        if len(row_set) <= len(column_set):
-            continue
-        names = [flat.name(int(columns[c])) for c in column_set[:SHOWN]]
-        known = f"{len(column_set)} unknowns ({', '.join(names)})" if names else "no unknown that is not zero or known"
-        lines.append(f"\nOver-determined: {len(row_set)} equations share {known}:")
-        _list_equations(reduced, rows, row_set, lines, equations, components)
-        unknowns.extend(names)
-    for row_set, column_set in connected_parts(graph, parts.under_rows, parts.under_columns)[:3]:
-        if len(column_set) <= len(row_set):
-            continue
-        names = [flat.name(int(columns[c])) for c in column_set[:SHOWN]]
-        more = ", ..." if len(column_set) > SHOWN else ""
-        lines.append(
-            f"\nUnder-determined: {len(column_set)} unknowns ({', '.join(names)}{more}) in {len(row_set)} equations"
-            + (":" if len(row_set) else "")
-        )
-        _list_equations(reduced, rows, row_set, lines, equations, components)
-        unknowns.extend(names)
-    lines.append(_advice(reduced, unknowns))
-    return StructureError("\n".join(lines), equations=equations, unknowns=unknowns, components=dict.fromkeys(components))
+    counts = f"{_count(n_eq, 'equation')} for {_count(len(columns), 'unknown')}"
+    text.lines.append(
+        f"`{flat.model_name}` is structurally singular: {counts} after alias elimination"
+        + (", but they cannot be paired." if n_eq == len(columns) else ".")
+    )
+    text.redundant()
+    for row_set, column_set in connected_parts(graph, parts.over_rows, parts.over_columns)[:PARTS]:
+        if len(row_set) > len(column_set):
+            text.over(row_set, [flat.name(int(columns[c])) for c in column_set])
+    for row_set, column_set in connected_parts(graph, parts.under_rows, parts.under_columns)[:PARTS]:
+        if len(column_set) > len(row_set):
+            text.under(row_set, [flat.name(int(columns[c])) for c in column_set])
+    return text.error()
 
 
-def _list_equations(
-    reduced: Reduced, rows: Rows, row_set: Ints, lines: list[str], equations: list[str], components: list[str]
-) -> None:
-    flat = reduced.flat
-    for r in row_set[:SHOWN]:
-        family, k = rows.locate(int(r))
-        text = flat.equation_text(family, k)
-        component, place = flat.equation_place(family, k)
-        lines.append(f"    {text:<48} {component or '(model)'}  {place}")
-        equations.append(text)
-        components.append(component)
-    if len(row_set) > SHOWN:
-        lines.append(f"    ... and {len(row_set) - SHOWN} more")
+class _Text:
+    """A message that grows part by part."""
+
+    def __init__(self, reduced: Reduced, rows: Rows) -> None:
+        self.reduced = reduced
+        self.flat = reduced.flat
+        self.rows = rows
+        self.lines: list[str] = []
+        self.equations: list[str] = []
+        self.over_unknowns: list[str] = []
+        self.under_unknowns: list[str] = []
+        self.components: list[str] = []
+        self.tips: list[str] = []
+        self.absent: list[str] = []
+
+    def _entry(self, text: str, component: str, place: str) -> None:
+        self.lines.append(f"    {text:<48} {component or '(model)'}  {place}")
+        self.equations.append(text)
+        self.components.append(component)
+
+    def _rows(self, row_set: Ints) -> list[str]:
+        """List equations; returns their components."""
+        found: list[str] = []
+        for r in row_set[:SHOWN]:
+            family, k = self.rows.locate(int(r))
+            component, place = self.flat.equation_place(family, k)
+            self._entry(self.flat.equation_text(family, k), component, place)
+            found.append(component)
+        if len(row_set) > SHOWN:
+            self.lines.append(f"    ... and {len(row_set) - SHOWN} more")
+        return list(dict.fromkeys(found))
+
+    def redundant(self) -> None:
+        """Alias equations that close a cycle."""
+        for r in self.reduced.redundant[:PARTS]:
+            self.lines.append("\nOver-determined: this equation repeats or contradicts others:")
+            self._entry(r.text, r.component, r.place)
+            if r.others:
+                self.lines.append("  namely:")
+                for other in r.others:
+                    self._entry(*other)
+        if len(self.reduced.redundant) > PARTS:
+            self.lines.append(f"\n... and {len(self.reduced.redundant) - PARTS} more such equations")
+
+    def over(self, row_set: Ints, names: list[str]) -> None:
+        """More equations than unknowns."""
+        known = f"{_count(len(names), 'unknown')} ({_few(names)})" if names else "no unknown: all is zero or known"
+        self.lines.append(f"\nOver-determined: {_count(len(row_set), 'equation')} for {known}:")
+        components = self._rows(row_set)
+        self.over_unknowns.extend(names)
+        if len(components) > 1 and len(components) <= 4 and len(names) == 1:
+            who = " and ".join(f"`{c or self.flat.model_name}`" for c in components)
+            self.tips.append(
+                f"{who} both determine `{names[0]}`, like two ideal sources in parallel: put a component between them "
+                "(a resistance), or remove one"
+            )
+
+    def under(self, row_set: Ints, names: list[str]) -> None:
+        """More unknowns than equations."""
+        many = _count(len(row_set), "equation") if len(row_set) else "no equation"
+        colon = ":" if len(row_set) else ""
+        self.lines.append(f"\nUnder-determined: {_count(len(names), 'unknown')} ({_few(names)}) in {many}{colon}")
+        self._rows(row_set)
+        self.under_unknowns.extend(names)
+        if not len(row_set):
+            self.absent.extend(names)
+
+    def error(self) -> StructureError:
+        """The finished message."""
+        flat = self.flat
+        owners = [n.rpartition(".")[0] for n in self.absent]
+        absent = [n for n, c in zip(self.absent, owners, strict=True) if c not in self.components]
+        written = context(flat, [*self.components, *owners], absent)
+        if written:
+            self.lines.append("\n" + written)
+        self.lines.append(self._advice())
+        unknowns = [*self.over_unknowns[:SHOWN], *self.under_unknowns[:SHOWN]]
+        components = dict.fromkeys(self.components)
+        return StructureError("\n".join(self.lines), equations=self.equations, unknowns=unknowns, components=components)
+
+    def _advice(self) -> str:
+        """What to try: unbalanced classes, unconnected ports and inputs, no ground."""
+        tips = [*unbalanced_classes(self.flat.root), *self.tips]
+        loose = _unconnected(self.reduced)
+        if loose:
+            tips.append(f"nothing is connected to {', '.join(f'`{p}`' for p in loose[:6])}: is a connect() missing?")
+        inputs = [n for n in self.under_unknowns if _kind(self.flat, n) == Kind.INPUT]
+        if inputs:
+            names = ", ".join(f"`{i}`" for i in inputs[:6])
+            tips.append(f"input {names} has no value: connect it or give it an equation")
+        potentials = [n for n in self.under_unknowns if _kind(self.flat, n) == Kind.POTENTIAL]
+        if potentials and self.reduced.redundant:
+            names = ", ".join(f"`{p}`" for p in potentials[:4])
+            occur = "occur" if len(potentials) > 1 else "occurs"
+            tips.append(
+                f"{names} {occur} in differences only: connect a reference (a ground, a fixed point, a given pressure)"
+            )
+        if not tips:
+            tips.append("is an equation missing, written twice, or written for the wrong variable?")
+        return "\nTry: " + "\n     ".join(tips)
 
 
-def _advice(reduced: Reduced, unknowns: list[str]) -> str:
-    """What to try: unbalanced classes, unconnected ports and inputs, no ground."""
-    tips: list[str] = []
-    for text in unbalanced_classes(reduced.flat.root):
-        tips.append(text)
-    loose = _unconnected(reduced)
-    if loose:
-        tips.append(f"nothing is connected to {', '.join(f'`{p}`' for p in loose[:6])}: is a connect() missing?")
-    inputs = _free_inputs(reduced, unknowns)
-    if inputs:
-        tips.append(f"input {', '.join(f'`{i}`' for i in inputs[:6])} has no value: connect it or give it an equation")
-    if not tips:
-        tips.append(
-            "often two ideal sources are connected without anything between them, a ground (reference) is missing, or "
-            "one equation was written twice"
-        )
-    return "\nTry: " + "\n     ".join(tips)
+def _count(n: int, what: str) -> str:
+    return f"{n} {what}" + ("" if n == 1 else "s")
+
+
+def _few(names: list[str]) -> str:
+    return ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
 
 
 def _unconnected(reduced: Reduced) -> list[str]:
@@ -108,15 +170,12 @@ def _unconnected(reduced: Reduced) -> list[str]:
     return list(seen)
 
 
-def _free_inputs(reduced: Reduced, unknowns: list[str]) -> list[str]:
-    flat = reduced.flat
-    found: list[str] = []
-    for name in unknowns:
-        if not name.startswith("der("):
-            ids, is_par = flat.names.find(name)
-            if not is_par and flat.names.declaration(int(ids)).kind == Kind.INPUT:
-                found.append(name)
-    return found
+def _kind(flat: FlatModel, name: str) -> Kind | None:
+    """Kind of a variable by its name, None for a derivative."""
+    if name.startswith("der("):
+        return None
+    ids, is_par = flat.names.find(name)
+    return None if is_par else flat.names.declaration(int(ids)).kind
 
 
 def unbalanced_classes(root: Template) -> list[str]:
@@ -142,8 +201,8 @@ def unbalanced_classes(root: Template) -> list[str]:
         if have != need and all(t.is_connector for s in template.children.values() for t in s.templates):
             kind = "too many" if have > need else "too few"
             tips.append(
-                f"class `{template.cls.__name__}` ({template.cls._source[0]}:{template.cls._source[1]}) has {have} equations "
-                f"where {need} are needed ({kind}): one for each variable, output and flow"
+                f"class `{template.cls.__name__}` ({template.cls._source[0]}:{template.cls._source[1]}) has {have} "
+                f"equations where {need} are needed ({kind}): one for each variable, output and flow"
             )
     return tips
 

@@ -25,6 +25,8 @@ class Origin:
     kind: str = "equation"
 
     def __str__(self) -> str:
+        if self.kind == "unconnected":
+            return "(nothing is connected there)"
         return f"{self.file}:{self.line} ({self.class_name})" if self.line else self.class_name
 
 

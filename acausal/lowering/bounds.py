@@ -1,0 +1,80 @@
+"""Check of the parameters of a run: every one has a value, within its declared bounds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..errors import DeclarationError
+from ..language.declarations import Declaration
+from ..language.flat_model import FlatModel
+from ..language.template import Floats, Template
+from ..passes.places import field_place
+
+SHOWN = 5
+"""Parameters named in one message."""
+
+
+def check_parameters(flat: FlatModel, p: Any) -> None:
+    """Raise DeclarationError if a parameter is missing (NaN) or outside its bounds.
+
+    Args:
+        flat: the model.
+        p: all parameters (n_p,), concrete.
+    """
+    values = np.asarray(p)
+    missing = np.flatnonzero(np.isnan(values))
+    if len(missing):
+        lines = [_line(flat, int(i), "") for i in missing[:SHOWN]]
+        raise DeclarationError(
+            "\n".join(
+                [
+                    f"`{flat.model_name}`: {_many(len(missing))} no value (or NaN):",
+                    *lines,
+                    "Try: a value at construction, or simulate(parameters={...}); a dependent parameter is NaN if one it "
+                    "depends on is.",
+                ]
+            )
+        )
+    low, high = _bounds(flat.root)
+    outside = np.flatnonzero((values[: flat.n_par] < low) | (values[: flat.n_par] > high))
+    if len(outside):
+        lines = [
+            _line(flat, int(i), f" = {values[i]:.6g} lies outside its bounds [{low[i]:.6g}, {high[i]:.6g}]")
+            for i in outside[:SHOWN]
+        ]
+        raise DeclarationError("\n".join([f"`{flat.model_name}`: {_many(len(outside))} a value out of bounds:", *lines]))
+
+
+def _many(n: int) -> str:
+    return "1 parameter has" if n == 1 else f"{n} parameters have"
+
+
+def _line(flat: FlatModel, index: int, text: str) -> str:
+    if index >= flat.n_par:
+        return f"    input `{flat.parameter_name(index)}`{text}"
+    declaration: Any = flat.names.declaration(index, parameter=True)
+    _, place = field_place(declaration.owner, declaration.name)
+    unit = f" [{declaration.unit}]" if declaration.unit else ""
+    return f"    `{flat.parameter_name(index)}`{unit}{text}    {place}"
+
+
+def _bounds(template: Template) -> tuple[Floats, Floats]:
+    """Lower and upper bounds of all parameters of a template, in its order."""
+    if "bounds" in template.cache:
+        return template.cache["bounds"]
+    own: list[Declaration] = [template.cls._declarations[n] for n, (is_par, _) in template.own.items() if is_par]
+    low = np.full(template.par_count, -np.inf)
+    high = np.full(template.par_count, np.inf)
+    low[: len(own)] = [-np.inf if d.min is None else d.min for d in own]
+    high[: len(own)] = [np.inf if d.max is None else d.max for d in own]
+    for slot in template.children.values():
+        if slot.role == "outer":
+            continue
+        for _, child, _, base, n in slot.parts():
+            below = _bounds(child)
+            end = base + n * child.par_count
+            low[base:end], high[base:end] = np.tile(below[0], n), np.tile(below[1], n)
+    template.cache["bounds"] = low, high
+    return low, high
