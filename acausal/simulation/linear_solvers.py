@@ -34,9 +34,17 @@ class AbstractLinearSolver(eqx.Module):
             `field(t, y)` (n,), its derivative with respect to t (n,), and the Jacobian with respect to y.
         """
 
+    def init(self) -> Any:
+        """What is kept from step to step; nothing by default."""
+        return None
+
     @abc.abstractmethod
-    def factor(self, diagonal: Array, jacobian: Array) -> Any:
-        """Factors `diag(diagonal) - jacobian`; `diagonal` has shape (n,)."""
+    def factor(self, diagonal: Array, jacobian: Array, kept: Any = None) -> tuple[Any, Any]:
+        """Factors `diag(diagonal) - jacobian`; `diagonal` has shape (n,).
+
+        Returns:
+            What `solve` takes, and what is kept for the next step.
+        """
 
     @abc.abstractmethod
     def solve(self, factors: Any, b: Array) -> Array:
@@ -56,9 +64,9 @@ class DenseLU(AbstractLinearSolver):
         value, columns = jax.vmap(push, out_axes=(None, 1))(seeds)
         return value, columns[:, 0], columns[:, 1:]
 
-    def factor(self, diagonal: Array, jacobian: Array) -> tuple[Array, Array]:
+    def factor(self, diagonal: Array, jacobian: Array, kept: Any = None) -> tuple[tuple[Array, Array], Any]:
         lu, _, permutation = jax.lax.linalg.lu(jnp.diag(diagonal) - jacobian)
-        return lu, permutation
+        return (lu, permutation), kept
 
     def solve(self, factors: tuple[Array, Array], b: Array) -> Array:
         lu, permutation = factors

@@ -50,7 +50,7 @@ def _flat(y: PyTree[Array]) -> tuple[Array, Callable[[Array], PyTree[Array]]]:
     return ravel_pytree(y)
 
 
-class Rodas5P(AbstractAdaptiveSolver[None]):
+class Rodas5P(AbstractAdaptiveSolver[Any]):
     r"""Eight-stage Rosenbrock-Wanner method of order 5(4) for \(M y' = f(t, y)\): stiffly accurate, A-stable, L-stable.
 
     Linearly implicit: a step takes one Jacobian, one LU factorisation, eight back-substitutions and eight
@@ -85,25 +85,26 @@ class Rodas5P(AbstractAdaptiveSolver[None]):
         del terms
         return 5
 
-    def init(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any) -> None:
+    def init(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any) -> Any:
         del terms, t0, t1, args
         if any(jnp.iscomplexobj(leaf) for leaf in jax.tree.leaves(y0)):
             raise ValueError("Rodas5P takes real states. Write a complex state as its real and imaginary parts.")
         n = sum(jnp.size(leaf) for leaf in jax.tree.leaves(y0))
         if self.mass is not None and jnp.shape(self.mass) != (n,):
             raise ValueError(f"`mass` is the diagonal, of shape ({n},) for this y0; got shape {jnp.shape(self.mass)}.")
+        return None if self.linear_solver is None else self.linear_solver.init()
 
     def func(self, terms: Any, t0: Any, y0: Any, args: Any) -> Any:
         return terms.vf(t0, y0, args)
 
     def step(
-        self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any, solver_state: None, made_jump: Any
-    ) -> tuple[Any, Any, dict[str, Any], None, RESULTS]:
+        self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any, solver_state: Any, made_jump: Any
+    ) -> tuple[Any, Any, dict[str, Any], Any, RESULTS]:
         """One step from `t0` to `t1`; see `diffrax.AbstractSolver.step`.
 
         Everything is written for `h f`, so that the term's control carries the direction of time.
         """
-        del solver_state, made_jump
+        del made_jump
         y, unflatten = _flat(y0)
         t0, h = jnp.asarray(t0, y.dtype), jnp.asarray(t1 - t0, y.dtype)
         control = terms.contr(t0, t1)
@@ -120,7 +121,7 @@ class Rodas5P(AbstractAdaptiveSolver[None]):
             first, rate, jacobian = self._given_jacobian(field, t0, y, unflatten, terms, args, control)
         rate = h * rate
         mass = jnp.ones_like(y) if self.mass is None else jnp.asarray(self.mass, y.dtype)
-        factors = linear_solver.factor(mass / tableau.GAMMA, jacobian)
+        factors, kept = linear_solver.factor(mass / tableau.GAMMA, jacobian, solver_state)
 
         def stage(u: Array, row: tuple[Array, Array, Array, Array]) -> tuple[Array, None]:
             i, coupling, node, weight = row
@@ -138,7 +139,7 @@ class Rodas5P(AbstractAdaptiveSolver[None]):
         if self.project is not None:
             y1 = self.project(_real_time(terms, t1), y1, args)
         dense_info = {"y0": y0, "y1": y1, "v": jax.vmap(unflatten)(increments[1:])}
-        return y1, unflatten(u[7]), dense_info, None, RESULTS.successful
+        return y1, unflatten(u[7]), dense_info, kept, RESULTS.successful
 
     def _given_jacobian(
         self, field: Any, t0: Array, y: Array, unflatten: Any, terms: Any, args: Any, control: Any

@@ -25,7 +25,7 @@ from .lowered import Lowered, dimensions
 from .projection import Projected, WithAlgebraic, project
 from .rodas5p import Rodas5P
 from .solution import Solution
-from .sparse import DENSE_BELOW, sparse_linear_solver
+from .sparse import DENSE_BELOW, SparseKLU, free_factors, sparse_linear_solver
 from .start import start
 
 POINTS = 501
@@ -130,15 +130,12 @@ def simulate(
 
     if inside_jit() or is_traced(arguments):
         run, dynamic, _ = _program(lowered, settings.replace(throw=throw))
-        t, x, w, counts, _, _ = run(dynamic, *arguments)
+        t, x, w, counts, *_ = run(dynamic, *arguments)
         return Solution(system, t, x, w, p, stats={**_named(counts, method), "solver": _name(method)}, lowered=lowered)
 
-    settings = settings.replace(progress=progress)
-    run, dynamic, key = _program(lowered, settings)
-    compiled, compile_seconds = compiled_for(lowered, key, run, (dynamic, *arguments))
-    begin = time.perf_counter()
-    t, x, w, counts, code, last = jax.block_until_ready(compiled(dynamic, *arguments))
-    run_seconds = time.perf_counter() - begin
+    (t, x, w, counts, code, last), compile_seconds, run_seconds = _carry_out(
+        lowered, settings.replace(progress=progress), arguments
+    )
     t, x, w = (np.asarray(a) for a in (t, x, w))
     kept = np.isfinite(t)
     if not kept.all():
@@ -151,6 +148,37 @@ def simulate(
     if throw and result not in ("successful", "event_occurred"):
         raise SimulationError(explain(system, lowered, result, stats, last, p, float(t1), settings.max_steps))
     return solution
+
+
+def _carry_out(
+    lowered: Lowered, settings: _Settings, arguments: tuple[Any, ...]
+) -> tuple[tuple[Any, ...], float, float]:
+    """Compiles and runs a solve: its outcome, the seconds of compiling and of running."""
+    linear = settings.solver.linear_solver if isinstance(settings.solver, Rodas5P) else None
+    keeping = settings
+    if isinstance(linear, SparseKLU):
+        keeping = eqx.tree_at(lambda s: s.solver.linear_solver, settings, SparseKLU(linear.pattern, keep_factors=True))
+    compile_seconds, failure = 0.0, None
+    for attempt in (keeping, settings):
+        run, dynamic, key = _program(lowered, attempt)
+        compiled, seconds = compiled_for(lowered, key, run, (dynamic, *arguments))
+        compile_seconds += seconds
+        begin = time.perf_counter()
+        try:
+            *outcome, kept = jax.block_until_ready(compiled(dynamic, *arguments))
+        except jax.errors.JaxRuntimeError as error:
+            if "klu" not in str(error):
+                raise
+            failure = error  # the pivots of the first step may be zero later: the second attempt chooses anew
+            continue
+        run_seconds = time.perf_counter() - begin
+        if kept is not None:
+            free_factors(kept)
+        return tuple(outcome), compile_seconds, run_seconds
+    raise SimulationError(
+        "The Jacobian became singular: some unknowns are not determined by the equations at that point. "
+        "Look at `system.report()`, and start from a point where the model is regular."
+    ) from failure
 
 
 class _Settings(eqx.Module):
@@ -201,7 +229,7 @@ def _solve(
     lowered: Lowered, static: _Settings, dynamic: _Settings, t0: Array, t1: Array, x0: Array, w0: Array, p: Array,
     rtol: Array, atol: Array, points: Array | None, dt: Array,
 ) -> tuple[Any, ...]:  # fmt: skip
-    """The pure solve: times, states, tearing variables, counts, result code and the last point."""
+    """The solve: times, states, tearing variables, counts, result code, last point, and kept factors."""
     settings = eqx.combine(dynamic, static)
     n_x, n_w, _ = dimensions(lowered)
     x_nominal, w_nominal = jnp.asarray(lowered.x_nominal, float), jnp.asarray(lowered.w_nominal, float)
@@ -235,7 +263,8 @@ def _solve(
         sub = diffrax.SubSaveAt(t0=where[1], t1=where[2], ts=points, steps=where[3])
     else:
         sub = diffrax.SubSaveAt(ts=points)
-    saveat = diffrax.SaveAt(subs=[sub, diffrax.SubSaveAt(t1=True)])
+    keep = _keeps_factors(settings.solver)
+    saveat = diffrax.SaveAt(subs=[sub, diffrax.SubSaveAt(t1=True)], solver_state=keep)
     solved = diffrax.diffeqsolve(
         diffrax.ODETerm(field), solver, t0, t1, None if isinstance(controller, diffrax.StepTo) else dt, y0, args,
         saveat=saveat, stepsize_controller=controller,
@@ -252,7 +281,7 @@ def _solve(
         x, w = y, _follow(lowered, t, y, w0, p) if n_w else jnp.zeros((y.shape[0], 0), y.dtype)
         last = (t_last, y_last, w[-1] if n_w else w0)
     counts = [solved.stats[f"num_{k}"] for k in ("steps", "accepted_steps", "rejected_steps")]
-    return t, x, w, counts, _code(solved.result), last
+    return t, x, w, counts, _code(solved.result), last, solved.solver_state if keep else None
 
 
 def _index_one(lowered: Lowered, solver: Rodas5P, x0: Array, w0: Array, p: Array) -> tuple[Any, Any, Array, Any]:
@@ -307,6 +336,11 @@ def _follow(lowered: Lowered, t: Array, x: Array, w0: Array, p: Array) -> Array:
         return jnp.where(good, found, w), found
 
     return jax.lax.scan(step, w0, (t, x))[1]
+
+
+def _keeps_factors(solver: Any) -> bool:
+    linear = solver.linear_solver if isinstance(solver, Rodas5P) else None
+    return isinstance(linear, SparseKLU) and linear.keep_factors
 
 
 def _with_linear_solver(solver: Any, lowered: Lowered) -> Any:

@@ -105,8 +105,8 @@ class SparseDense(AbstractLinearSolver):
         n = self.pattern.n
         return value, rate, jnp.zeros((n, n), y.dtype).at[self.pattern.rows, self.pattern.columns].set(values)
 
-    def factor(self, diagonal: Array, jacobian: Array) -> Any:
-        return DenseLU().factor(diagonal, jacobian)
+    def factor(self, diagonal: Array, jacobian: Array, kept: Any = None) -> tuple[Any, Any]:
+        return DenseLU().factor(diagonal, jacobian, kept)
 
     def solve(self, factors: Any, b: Array) -> Array:
         return DenseLU().solve(factors, b)
@@ -115,24 +115,79 @@ class SparseDense(AbstractLinearSolver):
 class SparseKLU(AbstractLinearSolver):
     """Coloured Jacobian with KLU: the symbolic analysis is done once, when the pattern is first used.
 
-    KLU factorises at each solve; for the narrow matrices of networks this costs about as much as the back
-    substitution, and it keeps the solve a pure function, so that it may run inside loops, `vmap` and derivatives.
     A Jacobian that is exactly singular stops the run with KLU's own error; a non-finite one gives NaN, which a
     step-size controller takes as a rejected step.
+
+    Args:
+        pattern: sparsity and colours.
+        keep_factors: `False` factorises at each of the eight solves of a step, which keeps the solve a pure function
+            that may run under `vmap` and be differentiated. `True` factorises once a step, with the pivots of the
+            first step, and refines each solution once; the factors are in memory outside JAX, and the solver state
+            holds their address. `simulate` does this in plain runs, and frees them with `free_factors`.
 
     Source: Davis, Palamadai Natarajan (2010), "Algorithm 907: KLU", ACM Trans. Math. Softw. 37(3).
     """
 
     pattern: SparsityPattern = eqx.field(static=True)
+    keep_factors: bool = eqx.field(static=True, default=False)
+
+    def init(self) -> Array | None:
+        return jnp.zeros(1, jnp.uint64) if self.keep_factors else None
 
     def jacobian(self, field: Field, t: Array, y: Array) -> tuple[Array, Array, Array]:
         return ColouredJacobian(self.pattern)(field, t, y)
 
-    def factor(self, diagonal: Array, jacobian: Array) -> Array:
-        return (-jacobian).at[self.pattern.diagonal].add(diagonal)
+    def factor(self, diagonal: Array, jacobian: Array, kept: Any = None) -> tuple[Any, Any]:
+        values = (-jacobian).at[self.pattern.diagonal].add(diagonal)
+        if not self.keep_factors:
+            return values, kept
+        factors = _KeptFactors(self.pattern, values, kept)
+        return factors, factors.handle
 
-    def solve(self, factors: Array, b: Array) -> Array:
+    def solve(self, factors: Any, b: Array) -> Array:
+        if isinstance(factors, _KeptFactors):
+            return factors.solve(b)
         return solve_klu(self.pattern, factors, b)
+
+
+class _KeptFactors:
+    """KLU factors at an address that goes from step to step: made in the first step, overwritten in later ones.
+
+    The order of the operations is safe because the factors of a step need the state that the solves of the step
+    before it made.
+    """
+
+    def __init__(self, pattern: SparsityPattern, values: Array, handle: Array) -> None:
+        klu = _klu()
+        self.pattern = pattern
+        self.rows, self.columns = jnp.asarray(pattern.rows), jnp.asarray(pattern.columns)
+        self.symbolic = jnp.asarray(pattern.symbolic().raw, jnp.uint64)
+        self.finite = jnp.all(jnp.isfinite(values))
+        identity = jnp.zeros_like(values).at[pattern.diagonal].set(1)
+        self.values = jnp.where(self.finite, values, identity)[None]
+
+        def first() -> Array:
+            return klu.factor_f64.bind(self.rows, self.columns, self.values, self.symbolic)
+
+        def again() -> Array:
+            return klu.refactor_f64.bind(self.rows, self.columns, self.values, self.symbolic, handle)
+
+        self.handle = jax.lax.cond(handle[0] == 0, first, again)
+
+    def solve(self, b: Array) -> Array:
+        klu = _klu()
+        right = b[None, :, None]
+        x = klu.solve_with_numeric_f64.bind(self.symbolic, self.handle, right)
+        rest = right - klu.dot_f64.bind(self.rows, self.columns, self.values, x)
+        x = x + klu.solve_with_numeric_f64.bind(self.symbolic, self.handle, rest)
+        return jnp.where(self.finite, x[0, :, 0], jnp.nan)
+
+
+def free_factors(handle: Any) -> None:
+    """Frees kept factors, given the solver state of a finished solve."""
+    address = int(np.asarray(handle).ravel()[0])
+    if address:
+        _klu().KLUNumeric([address]).close()
 
 
 def solve_klu(pattern: SparsityPattern, values: Array, b: Array) -> Array:

@@ -198,5 +198,5 @@ def test_linear_solver_dense():
     matrix = jax.random.normal(jax.random.key(0), (7, 7))
     b = jnp.arange(7.0)
     solver = DenseLU()
-    x = solver.solve(solver.factor(jnp.full(7, 2.0), matrix), b)
+    x = solver.solve(solver.factor(jnp.full(7, 2.0), matrix)[0], b)
     assert np.allclose((2 * np.eye(7) - matrix) @ x, b, atol=1e-12)
