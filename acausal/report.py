@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .language.flat_model import Family, FlatModel
+from .lowering.initial import ACCEPTED
 
 if TYPE_CHECKING:
     from .system import System
@@ -126,7 +127,7 @@ def explain_initial(system: System, x0: np.ndarray, w0: np.ndarray, left: np.nda
         distances = [float(r) if np.isfinite(r) else np.inf for r in left]
         entries = sorted(zip(distances, texts, strict=False), key=lambda e: -e[0])
     lines = [f"Initialization of `{system.name}` found no consistent start."]
-    shown = [e for e in entries if e[0] > 1e-8][:8]
+    shown = [e for e in entries if e[0] > ACCEPTED][:8]
     if shown:
         lines.append("Conditions that are not met (distance relative to the scale of the unknowns):")
         lines += [f"    {r:9.2e}  {t}" for r, t in shown]

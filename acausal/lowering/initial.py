@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy import sparse
+from scipy.sparse import csgraph
 
 from ..language.flat_model import Bools, Family
 from ..language.template import Floats, Ints
@@ -20,8 +22,12 @@ from .lowered import Lowered
 EASE_NOT_GIVEN, EASE_ALGEBRAIC = 1e2, 1e4
 """How much more readily than a state with a start value a state without one, or an algebraic unknown, is moved."""
 
-TOLERANCE = 1e-10
-"""Residuals are zero when a Newton step would move the unknowns by less than this fraction of their scale."""
+ACCEPTED = 1e-6
+"""A condition holds if moving one variable by this fraction of its nominal value could make it hold exactly. Newton's
+method leaves much less; what is left is the rounding of start values that are given twice, as all coordinates of a
+mechanism."""
+LARGEST = 1000
+"""Up to so many unknowns the conditions are solved together; beyond, only for the states that they concern."""
 
 
 @dataclass(slots=True, eq=False)
@@ -99,32 +105,27 @@ def solve_initial(
         starts: start values of all variables (nan where not given).
         overrides: reduced variable index to value: further fixed starts.
     """
+    import jax
     import jax.numpy as jnp
 
     low = problem.lowered
-    states = low.schedule.states
-    x_start = _start_of(problem, states, starts)
-    w_start = _start_of(problem, low.schedule.tears, starts)
-    position = {int(v): i for i, v in enumerate(states)} if overrides else {}
-    fixed = problem.fixed.copy()
-    targets = {int(v): problem.start_sign[v] * starts[int(problem.start_source[v])] for v in problem.targets}
-    for index, value in overrides.items():
-        if index in position:
-            x_start = x_start.at[position[index]].set(value)
-            fixed[position[index]] = True
-        else:
-            targets[index] = value
-    if not (targets or problem.families or low.n_g):
+    given = given_starts(problem, starts, overrides, jnp)
+    x_start, w_start, ids, wanted = given.x, given.w, given.ids, given.wanted
+    if not given.conditions:
         w0 = low.solve_algebraic(t0, x_start, w_start, p) if low.n_w else w_start
         return x_start, w0, jnp.zeros(0)
-    free = np.flatnonzero(~fixed)
-    ids = np.array(list(targets), np.int64)
-    wanted = jnp.stack([jnp.asarray(v, float) for v in targets.values()]) if targets else jnp.zeros(0)
+    free = np.flatnonzero(~given.fixed)
+    together = len(free) + low.n_w <= LARGEST
+    if not together:
+        free = free[concerned(problem, ids)[free]]
 
     def residual(y: Any, x_start: Any) -> Any:
         x = x_start.at[free].set(y[: len(free)]) if len(free) else x_start
-        w = y[len(free) :]
-        parts = [low.derivatives(t0, x, w, p)[1]] if low.n_w else []
+        if together:
+            w = y[len(free) :]
+            parts = [low.derivatives(t0, x, w, p)[1]] if low.n_w else []
+        else:
+            w, parts = low.solve_algebraic(t0, x, w_start, p) if low.n_w else w_start, []
         if low.n_g:
             parts.append(low.invariants(t0, x, w, p))
         if len(ids):
@@ -133,26 +134,98 @@ def solve_initial(
             parts.append(low.residuals_of(problem.families, t0, x, w, p))
         return jnp.concatenate(parts)
 
-    scale = jnp.asarray(np.concatenate([problem.ease[free], EASE_ALGEBRAIC * low.w_nominal]))
-    y_start = jnp.concatenate([x_start[free], w_start])
-    y, left = _gauss_newton(residual, y_start, scale, x_start)
-    return (x_start.at[free].set(y[: len(free)]) if len(free) else x_start), y[len(free) :], left
+    nominal, ease, y_start = low.x_nominal[free], problem.ease[free], x_start[free]
+    if together:
+        if low.n_w:  # the algebraic unknowns alone first, so that they do not pull at the states
+            w_near = jax.lax.stop_gradient(low.solve_algebraic(t0, x_start, w_start, p))
+            w_start = jnp.where(jnp.isfinite(w_near).all(), w_near, w_start)
+        nominal = np.concatenate([nominal, low.w_nominal])
+        ease = np.concatenate([ease, EASE_ALGEBRAIC * low.w_nominal])
+        y_start = jnp.concatenate([y_start, w_start])
+    y, left = _gauss_newton(residual, y_start, jnp.asarray(ease), jnp.asarray(nominal), x_start)
+    x0 = x_start.at[free].set(y[: len(free)]) if len(free) else x_start
+    if together:
+        return x0, y[len(free) :], left
+    w0 = low.solve_algebraic(t0, x0, w_start, p) if low.n_w else w_start
+    return x0, w0, jnp.concatenate([jnp.zeros(low.n_w), left])
 
 
-def _start_of(problem: InitialProblem, ids: Ints, starts: Any) -> Any:
-    import jax.numpy as jnp
+@dataclass(slots=True, eq=False)
+class GivenStarts:
+    """Start values, and those that are conditions.
 
+    Attributes:
+        x, w: start values of states and algebraic unknowns.
+        fixed: mask of the states that keep theirs.
+        ids, wanted: other variables whose start value is a condition, and these values.
+        conditions: whether there is more to solve than the algebraic equations.
+    """
+
+    x: Any
+    w: Any
+    fixed: Bools
+    ids: Ints
+    wanted: Any
+    conditions: bool
+
+
+def given_starts(problem: InitialProblem, starts: Any, overrides: dict[int, Any], xp: Any) -> GivenStarts:
+    """Start values with `overrides` in place; `xp` is numpy or jax.numpy."""
+    low = problem.lowered
+    states = low.schedule.states
+    x = _start_of(problem, states, starts, xp)
+    w = _start_of(problem, low.schedule.tears, starts, xp)
+    fixed = problem.fixed.copy()
+    ids = problem.targets[~np.isin(problem.targets, list(overrides))] if overrides else problem.targets
+    wanted = problem.start_sign[ids] * starts[problem.start_source[ids]]
+    position = {int(v): i for i, v in enumerate(states)} if overrides else {}
+    inside = {position[k]: v for k, v in overrides.items() if k in position}
+    outside = {k: v for k, v in overrides.items() if k not in position}
+    if inside:
+        at = np.array(list(inside), np.int64)
+        values = xp.stack([xp.asarray(v, float) for v in inside.values()])
+        fixed[at] = True
+        if xp is np:
+            x[at] = values
+        else:
+            x = x.at[at].set(values)
+    if outside:
+        ids = np.concatenate([ids, np.array(list(outside), np.int64)])
+        wanted = xp.concatenate([wanted, xp.stack([xp.asarray(v, float) for v in outside.values()])])
+    return GivenStarts(x, w, fixed, ids, wanted, bool(len(ids) or problem.families or low.n_g))
+
+
+def concerned(problem: InitialProblem, ids: Ints) -> Bools:
+    """Mask of the states that conditions (other than the algebraic equations) depend on, possibly over others."""
+    from .sparsity import condition_pattern
+
+    low = problem.lowered
+    pattern = condition_pattern(low, ids, [*low.schedule.invariants, *problem.families])
+    return connected(pattern, np.arange(pattern.shape[0]) >= low.n_w)[: low.n_x]
+
+
+def connected(pattern: Any, rows: Bools) -> Bools:
+    """Mask of the columns in the connected components of `pattern` that have one of `rows`."""
+    m = pattern.shape[0]
+    graph = sparse.bmat([[None, pattern], [pattern.T, None]], format="csr")
+    count, label = csgraph.connected_components(graph, directed=False)
+    reached = np.zeros(count, bool)
+    reached[label[:m][rows]] = True
+    return reached[label[m:]]
+
+
+def _start_of(problem: InitialProblem, ids: Ints, starts: Any, xp: Any) -> Any:
     if not len(ids):
-        return jnp.zeros(0)
+        return xp.zeros(0)
     values = problem.start_sign[ids] * starts[problem.start_source[ids]]
-    return jnp.where(jnp.isnan(values), 0.0, values)
+    return xp.where(xp.isnan(values), 0.0, values)
 
 
-def _gauss_newton(residual: Any, y_start: Any, scale: Any, context: Any) -> tuple[Any, Any]:
+def _gauss_newton(residual: Any, y_start: Any, scale: Any, nominal: Any, context: Any) -> tuple[Any, Any]:
     """Nearest root to `y_start`, and its residual (relative to the scale of each equation).
 
-    The iteration runs without derivatives; one more step outside of it carries them: at a root its derivative is that of
-    the implicit function, and start values move the solution within the null space of the Jacobian.
+    The iteration runs without derivatives; one more step outside of it carries them: at a root its derivative is that
+    of the implicit function, and start values move the solution within the null space of the Jacobian.
     """
     import jax
     import jax.numpy as jnp
@@ -166,9 +239,9 @@ def _gauss_newton(residual: Any, y_start: Any, scale: Any, context: Any) -> tupl
 
     def step_of(y: Any) -> tuple[Any, Any]:
         r, j = f(y), jac(y) * scale
-        row = jnp.maximum(jnp.abs(j).max(axis=1), 1e-300)
+        row = _row_size(j)
         delta = jnp.linalg.lstsq(j / row[:, None], -r / row, rcond=1e-11)[0]
-        return delta, jnp.abs(r / row).max()
+        return delta, jnp.linalg.norm(r / row)
 
     def body(state: Any) -> Any:
         y, _, k = state
@@ -191,17 +264,26 @@ def _gauss_newton(residual: Any, y_start: Any, scale: Any, context: Any) -> tupl
         return (state[1] > 1e-15) & (state[2] < 80)
 
     start = jax.lax.stop_gradient(y_start)
-    scale = jnp.maximum(scale, 0.0)
-    y, _, _ = jax.lax.while_loop(again, body, (start, jnp.asarray(jnp.inf), 0))
+    flat = (jnp.abs(jac(start)).max(axis=1, initial=0.0) == 0) & (jnp.abs(f(start)) > 0)
+    aside = start + 1e-3 * nominal * np.random.default_rng(1).uniform(-1, 1, start.shape)
+    y, _, _ = jax.lax.while_loop(again, body, (jnp.where(flat.any(), aside, start), jnp.asarray(jnp.inf), 0))
     y = jax.lax.stop_gradient(y)
     j = jax.lax.stop_gradient(jac(y)) * scale
-    row = jnp.maximum(jnp.abs(j).max(axis=1), 1e-300)
+    row = _row_size(j)
     pseudo = jnp.linalg.pinv(j / row[:, None], rtol=1e-11)
     r = residual(y, context)
-    left = jax.lax.stop_gradient(jnp.abs(r / row))
+    left = jax.lax.stop_gradient(jnp.abs(r) / _row_size(j * (nominal / scale)))
     correction = -pseudo @ (r / row)
     tangent_start = (y_start - start) / scale
     null = tangent_start - pseudo @ ((j / row[:, None]) @ tangent_start)
     # values are those of the iteration; only derivatives come from the two linear terms
     correction = correction - jax.lax.stop_gradient(correction)
     return y + (correction + null) * scale, left
+
+
+def _row_size(j: Any) -> Any:
+    """Largest element of each row, 1 for a row of zeros."""
+    import jax.numpy as jnp
+
+    size = jnp.abs(j).max(axis=1, initial=0.0)
+    return jnp.where(size > 0, size, 1.0)

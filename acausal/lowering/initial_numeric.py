@@ -2,25 +2,36 @@
 
 Used when all values are known numbers; inside JAX transformations `initial.solve_initial` does the work. Where Newton's
 method fails from the given guesses, the conditions are turned on gradually (Newton homotopy, Allgower and Georg 2003,
-Introduction to Numerical Continuation Methods, 1.1).
+Introduction to Numerical Continuation Methods, 1.1). Large problems have sparse Jacobians, found by compressed
+directional derivatives (Curtis, Powell and Reid 1974).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import splu
 
-from ..language.template import Floats
-from .initial import EASE_ALGEBRAIC, InitialProblem
+from ..dae.coloring import color_columns
+from ..language.template import Floats, Ints
+from .initial import EASE_ALGEBRAIC, InitialProblem, connected, given_starts
 from .numeric import NumericRun
+from .sparsity import condition_pattern
 
 LARGEST = 400
-"""Problems with more unknowns than this are left to the compiled path."""
+"""With more states and algebraic unknowns than this, Jacobians are sparse."""
+COLORS = 1000
+"""Problems that would need more directional derivatives are left to the compiled path."""
 ITERATIONS = 100
 HOMOTOPY_STEPS = 20
+DAMPING = 1e-12
+"""Added to the normal equations of large problems, whose conditions may repeat each other."""
 
-System = Callable[[Floats], tuple[Floats, Floats]]
+Function = Callable[[Floats], tuple[Floats, Any]]
+"""From z = (x, w) to the residuals (m,) and their Jacobian (m, n_x + n_w), dense or sparse."""
 
 
 def solve_numeric(
@@ -36,115 +47,211 @@ def solve_numeric(
         overrides: reduced variable index to value: further fixed starts.
     """
     low = problem.lowered
-    states, tears = low.schedule.states, low.schedule.tears
-    x = _start_of(problem, states, starts)
-    w = _start_of(problem, tears, starts)
-    fixed = problem.fixed.copy()
-    targets = {int(v): problem.start_sign[v] * starts[int(problem.start_source[v])] for v in problem.targets}
-    position = {int(v): i for i, v in enumerate(states)} if overrides else {}
-    for index, value in overrides.items():
-        if index in position:
-            x[position[index]] = value
-            fixed[position[index]] = True
-        else:
-            targets[index] = value
-    if not (targets or problem.families or low.n_g):
+    given = given_starts(problem, starts, dict(overrides), np)
+    if not given.conditions:
         if not low.n_w:
-            return x, w, np.zeros(0)
-        fixed[:] = True
-    free = np.flatnonzero(~fixed)
-    if len(free) + len(tears) > LARGEST:
+            return given.x, given.w, np.zeros(0)
+        given.fixed[:] = True
+    function = _function(problem, t0, p, given.ids, given.wanted)
+    if function is None:
         return None
-    ids = np.array(list(targets), np.int64)
-    wanted = np.array(list(targets.values()), float)
-    scale = np.concatenate([problem.ease[free], EASE_ALGEBRAIC * low.w_nominal])
+    evaluate, may_move = function
+    z = np.concatenate([given.x, given.w])
+    nominal = np.concatenate([low.x_nominal, low.w_nominal])
+    ease = np.concatenate([problem.ease, EASE_ALGEBRAIC * low.w_nominal])
+    algebraic = low.n_x + np.arange(low.n_w)
+    free = np.concatenate([np.flatnonzero(~given.fixed & may_move), algebraic])
+    if given.conditions and low.n_w:  # the algebraic unknowns alone first, so that they do not pull at the states
+        part = _Part(evaluate, nominal, ease, algebraic, slice(low.n_w))
+        near = root_near(part, z)
+        if np.max(part.left(near), initial=0.0) <= 1e-9:
+            z = near
+    conditions = _Part(evaluate, nominal, ease, free, slice(None))
+    found = root_near(conditions, z)
+    left = conditions.left(found)
+    for attempt in (_homotopy, _beside):
+        if np.max(left, initial=0.0) <= 1e-9:
+            break
+        other = attempt(conditions, z)
+        better = conditions.left(other)
+        if np.max(better, initial=0.0) < np.max(np.nan_to_num(left, nan=np.inf), initial=0.0):
+            found, left = other, better
+    return found[: low.n_x], found[low.n_x :], left
 
-    def system(y: Floats) -> tuple[Floats, Floats]:
-        at = x.copy()
-        at[free] = y[: len(free)]
-        run = NumericRun(low, t0, at, y[len(free) :], p, free)
+
+def _function(
+    problem: InitialProblem, t0: float, p: Floats, ids: Ints, wanted: Floats
+) -> tuple[Function, np.ndarray] | None:
+    """Residuals of all conditions with their Jacobian, and which states there is a reason to move."""
+    low = problem.lowered
+    n_x, n_z = low.n_x, low.n_x + low.n_w
+    everything = np.arange(n_x)
+
+    def conditions(z: Floats, directions: Floats | None) -> tuple[Floats, Floats]:
+        run = NumericRun(low, t0, z[:n_x], z[n_x:], p, everything, directions)
         invariants, d_invariants = run.families(low.schedule.invariants)
         extra, d_extra = run.families(problem.families)
         value = np.concatenate([run.residual[0], invariants, run.value[ids] - wanted, extra])
-        slope = np.concatenate([run.residual[1], d_invariants, run.gradient[ids], d_extra])
-        return value, slope * scale
+        return value, np.concatenate([run.residual[1], d_invariants, run.gradient[ids], d_extra])
 
-    start = np.concatenate([x[free], w])
-    y, left = gauss_newton(system, start, scale)
-    if not left.size or not np.max(left, initial=0.0) <= 1e-9:
-        other, better = _homotopy(system, start, scale)
-        if np.max(better, initial=np.inf) < np.max(np.nan_to_num(left, nan=np.inf), initial=0.0):
-            y, left = other, better
-    x[free] = y[: len(free)]
-    return x, y[len(free) :], left
+    if n_z <= LARGEST:
+        return (lambda z: conditions(z, None)), np.ones(n_x, bool)
+    pattern = _in_order(problem, ids)
+    color = color_columns(pattern)
+    n_colors = int(color.max(initial=-1)) + 1
+    if n_colors > COLORS:
+        return None
+    directions = np.zeros((n_z, n_colors))
+    directions[np.arange(n_z), color] = 1.0
+    rows = np.repeat(np.arange(pattern.shape[0]), np.diff(pattern.indptr))
+
+    def compressed(z: Floats) -> tuple[Floats, Any]:
+        value, slope = conditions(z, directions)
+        data = slope[rows, color[pattern.indices]]
+        return value, sparse.csr_array((data, pattern.indices, pattern.indptr), pattern.shape)
+
+    return compressed, connected(pattern, np.arange(pattern.shape[0]) >= low.n_w)[:n_x]
 
 
-def _start_of(problem: InitialProblem, ids: np.ndarray, starts: Floats) -> Floats:
-    values = problem.start_sign[ids] * starts[problem.start_source[ids]]
-    return np.nan_to_num(np.asarray(values, float))
+def _in_order(problem: InitialProblem, ids: Ints) -> Any:
+    """Pattern of the conditions in their order: algebraic equations, invariants, variables `ids`, initial equations."""
+    low = problem.lowered
+    pattern = condition_pattern(low, ids, [*low.schedule.invariants, *problem.families])
+    n_w, n_i, n_g = low.n_w, len(ids), low.n_g
+    total = pattern.shape[0]
+    order = np.concatenate(
+        [np.arange(n_w), n_w + n_i + np.arange(n_g), n_w + np.arange(n_i), np.arange(n_w + n_i + n_g, total)]
+    )
+    return sparse.csr_array(pattern[order])
 
 
-def gauss_newton(system: System, y: Floats, scale: Floats) -> tuple[Floats, Floats]:
-    """Root of `system` near `y` (minimum-norm steps, halved until the residual falls), and the relative residuals.
+class _Part:
+    """Some of the conditions as a function of some of the variables."""
+
+    def __init__(self, function: Function, nominal: Floats, ease: Floats, columns: Ints, rows: slice) -> None:
+        self.function = function
+        self.nominal = nominal
+        self.scale = ease[columns]
+        self.columns = columns
+        self.rows = rows
+        self.offset: Any = 0.0
+
+    def __call__(self, z: Floats) -> tuple[Floats, Any, Floats]:
+        """Residuals, Jacobian with respect to the scaled variables, and the size of each row over all variables."""
+        r, j = self.function(z)
+        r, j = r[self.rows] - self.offset, j[self.rows]
+        whole = _largest(_times(j, self.nominal))
+        part = _times(j[:, self.columns], self.scale)
+        size = np.maximum(_largest(part), whole)
+        return r, part, np.where(size > 0, size, 1.0)
+
+    def left(self, z: Floats) -> Floats:
+        """Residuals, each relative to the change that the nominal value of some variable makes."""
+        r, j = self.function(z)
+        size = _largest(_times(j[self.rows], self.nominal))
+        return np.abs(r[self.rows]) / np.where(size > 0, size, 1.0)
+
+
+def _times(j: Any, scale: Floats) -> Any:
+    return j.multiply(scale[None, :]).tocsr() if sparse.issparse(j) else j * scale
+
+
+def _largest(j: Any) -> Floats:
+    """Largest magnitude in each row."""
+    if sparse.issparse(j):
+        return np.nan_to_num(np.asarray(abs(j).max(axis=1).todense()).ravel()) if j.shape[1] else np.zeros(j.shape[0])
+    return np.abs(np.nan_to_num(j)).max(axis=1, initial=0.0)
+
+
+def root_near(system: _Part, z: Floats) -> Floats:
+    """Root of `system` near `z`: steps of minimum norm, halved until the residual falls."""
+    z = z.copy()
+    r, j, size = system(z)
+    norm = _norm(r, size)
+    for _ in range(ITERATIONS):
+        delta = _step(r, j, size)
+        if delta is None:
+            break
+        factor = 1.0
+        while factor > 1e-9:
+            new = z.copy()
+            new[system.columns] += factor * delta * system.scale
+            r_new, j_new, size_new = system(new)
+            if _norm(r_new, size) < norm:
+                break
+            factor *= 0.5
+        else:
+            break
+        z, r, j, size = new, r_new, j_new, size_new
+        norm = _norm(r, size)
+        if np.abs(factor * delta).max(initial=0.0) < 1e-15:
+            break
+    return z
+
+
+def gauss_newton(system: Function, y: Floats, scale: Floats) -> tuple[Floats, Floats]:
+    """Root of `system` near `y`, and the relative residuals.
 
     Args:
         system: y to (residuals (m,), Jacobian times scale (m, n)).
         y: first guess (n,).
         scale: typical magnitude of the unknowns (n,).
     """
-    y = y.copy()
-    r, j = system(y)
-    for _ in range(ITERATIONS):
-        delta, size = _step(r, j)
-        if delta is None:
-            break
-        factor = 1.0
-        while factor > 1e-9:
-            new = y + factor * delta * scale
-            r_new, j_new = system(new)
-            if _norm(r_new, j) < size:
-                break
-            factor *= 0.5
-        else:
-            break
-        y, r, j = new, r_new, j_new
-        if np.abs(factor * delta).max(initial=0.0) < 1e-15:
-            break
-    row = _rows(j)
-    return y, np.abs(r) / row
+
+    def unscaled(z: Floats) -> tuple[Floats, Any]:
+        r, j = system(z)
+        return r, j / scale
+
+    part = _Part(unscaled, scale, scale, np.arange(len(y)), slice(None))
+    found = root_near(part, y)
+    return found, part.left(found)
 
 
-def _rows(j: Floats) -> Floats:
-    return np.maximum(np.abs(np.nan_to_num(j)).max(axis=1, initial=0.0), 1e-300)
-
-
-def _norm(r: Floats, j: Floats) -> float:
+def _norm(r: Floats, size: Floats) -> float:
     """Residual relative to the slopes at the last point."""
-    return float(np.abs(r / _rows(j)).max(initial=0.0)) if np.isfinite(r).all() else np.inf
+    return float(np.linalg.norm(r / size)) if np.isfinite(r).all() else np.inf
 
 
-def _step(r: Floats, j: Floats) -> tuple[Floats | None, float]:
-    row = _rows(j)
-    if not (np.isfinite(r).all() and np.isfinite(j).all()):
-        return None, np.inf
-    size = float(np.abs(r / row).max(initial=0.0))
-    if size == 0.0:
-        return None, 0.0
-    return np.linalg.lstsq(j / row[:, None], -r / row, rcond=1e-11)[0], size
+def _step(r: Floats, j: Any, size: Floats) -> Floats | None:
+    """Least-squares step of minimum norm, None if there is none to take."""
+    if not np.isfinite(r).all() or not r.any() or not j.shape[1]:
+        return None
+    if not sparse.issparse(j):
+        if not np.isfinite(j).all():
+            return None
+        return np.linalg.lstsq(j / size[:, None], -r / size, rcond=1e-11)[0]
+    if not np.isfinite(j.data).all():
+        return None
+    scaled = (sparse.diags_array(1 / size) @ j).tocsr()
+    used = np.flatnonzero(np.diff(scaled.indptr))
+    scaled, rhs = scaled[used], -r[used] / size[used]
+    normal = (scaled @ scaled.T + DAMPING * sparse.eye_array(len(used))).tocsc()
+    return scaled.T @ splu(normal).solve(rhs)
 
 
-def _homotopy(system: System, y: Floats, scale: Floats) -> tuple[Floats, Floats]:
-    """Follow the root of ``r(y) - (1 - s) r(y0)`` from s = 0 to 1."""
-    r0, _ = system(y)
+def _homotopy(system: _Part, z: Floats) -> Floats:
+    """Follow the root of ``r(z) - (1 - s) r(z0)`` from s = 0 to 1."""
+    r0, _, _ = system(z)
     if not np.isfinite(r0).all():
-        return y, np.full(len(r0), np.inf)
+        return z
     for k in range(1, HOMOTOPY_STEPS + 1):
-        part = (1.0 - k / HOMOTOPY_STEPS) * r0
+        system.offset = (1.0 - k / HOMOTOPY_STEPS) * r0
+        z = root_near(system, z)
+    system.offset = 0.0
+    return z
 
-        def shifted(v: Floats, part: Floats = part) -> tuple[Floats, Floats]:
-            r, j = system(v)
-            return r - part, j
 
-        y, _ = gauss_newton(shifted, y, scale)
-    r, j = system(y)
-    return y, np.abs(r) / _rows(j)
+def _beside(system: _Part, z: Floats) -> Floats:
+    """The root from guesses beside the given one, where a slope may not vanish that vanishes there."""
+    random = np.random.default_rng(1)
+    best, least = z, np.inf
+    for size in (1e-3, 1e-3, 0.1, 0.1, 1.0, 1.0):
+        near = z.copy()
+        near[system.columns] += size * system.nominal[system.columns] * random.uniform(-1, 1, len(system.columns))
+        found = root_near(system, near)
+        left = float(np.max(np.nan_to_num(system.left(found), nan=np.inf), initial=0.0))
+        if left < least:
+            best, least = found, left
+        if least <= 1e-9:
+            break
+    return best

@@ -51,7 +51,7 @@ class Lowered:
         self.n_all = len(self.representative)
 
     # ---- what is needed -------------------------------------------------------------------------------------------
-    def _closure(self, ids: Ints, *, residuals: bool) -> list[int]:
+    def closure(self, ids: Ints, *, residuals: bool) -> list[int]:
         """Groups needed for variables `ids` (and for the residuals of all iterating groups, if asked for)."""
         wanted = np.zeros(self.n_ids, bool)
         wanted[ids] = True
@@ -65,12 +65,12 @@ class Lowered:
 
     @cached_property
     def _groups_dx(self) -> list[int]:
-        return self._closure(self.dx_ids, residuals=True)
+        return self.closure(self.dx_ids, residuals=True)
 
     @cached_property
     def _groups_g(self) -> list[int]:
         ids = np.concatenate([np.zeros(0, np.int64), *(f.var_rows.ravel() for f in self.schedule.invariants)])
-        return self._closure(ids, residuals=False)
+        return self.closure(ids, residuals=False)
 
     @cached_property
     def _groups_all(self) -> list[int]:
@@ -89,7 +89,7 @@ class Lowered:
 
     def values(self, ids: Ints, t: Any, x: Any, w: Any, p: Any) -> Any:
         """Values of some variables (indices of the reduced model), (len(ids),)."""
-        env, _ = self._run(self._closure(ids, residuals=False), t, x, w, p)
+        env, _ = self._run(self.closure(ids, residuals=False), t, x, w, p)
         return self._vector(env, ids)
 
     def observe(self, t: Any, x: Any, w: Any, p: Any, ids: Ints | None = None) -> Any:
@@ -106,7 +106,7 @@ class Lowered:
     def residuals_of(self, families: list[Family], t: Any, x: Any, w: Any, p: Any) -> Any:
         """Residuals of further equations (of the initialization), concatenated."""
         ids = np.concatenate([np.zeros(0, np.int64), *(f.var_rows.ravel() for f in families)])
-        env, _ = self._run(self._closure(ids, residuals=False), t, x, w, p)
+        env, _ = self._run(self.closure(ids, residuals=False), t, x, w, p)
         return self._families(families, env, t, p)
 
     def explicit(self, t: Any, x: Any, w_guess: Any, p: Any) -> Any:
@@ -118,7 +118,7 @@ class Lowered:
         """Algebraic unknowns (n_w,) that make the residuals zero; derivatives by the implicit-function theorem."""
         if not self.n_w:
             return w_guess
-        groups = self._closure(np.zeros(0, np.int64), residuals=True)
+        groups = self.closure(np.zeros(0, np.int64), residuals=True)
         env, _ = self._run(groups, t, x, w_guess, p, solve=True)
         return self._vector(env, self.schedule.tears)
 

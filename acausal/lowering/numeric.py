@@ -26,7 +26,7 @@ Dual = tuple[Any, Any]
 
 
 class NumericRun:
-    """Values of all variables at one point, with gradients with respect to y = (chosen states, algebraic unknowns).
+    """Values of all variables at one point, with directional derivatives with respect to z = (x, w).
 
     Attributes:
         value: (n_ids,) values; nan where not yet computed.
@@ -34,17 +34,24 @@ class NumericRun:
         residual: residuals of the iterated equations, in the order of the algebraic unknowns.
     """
 
-    def __init__(self, lowered: Lowered, t: float, x: Floats, w: Floats, p: Floats, free: Ints) -> None:
+    def __init__(
+        self, lowered: Lowered, t: float, x: Floats, w: Floats, p: Floats, free: Ints, directions: Any = None
+    ) -> None:
+        """Derivatives with respect to the states `free` and all of w, or along the columns of `directions` of z."""
         self.lowered = lowered
         self.t = t
         self.p = p
         states, tears = lowered.schedule.states, lowered.schedule.tears
-        self.n_y = len(free) + len(tears)
+        if directions is None:
+            directions = np.eye(len(states) + len(tears))[
+                :, np.r_[free, len(states) + np.arange(len(tears))].astype(int)
+            ]
+        self.n_y = directions.shape[1]
         self.value = np.full(lowered.n_ids, np.nan)
         self.gradient = np.zeros((lowered.n_ids, self.n_y))
         self.value[states], self.value[tears] = x, w
-        self.gradient[states[free], np.arange(len(free))] = 1.0
-        self.gradient[tears, len(free) + np.arange(len(tears))] = 1.0
+        self.gradient[states] = directions[: len(states)]
+        self.gradient[tears] = directions[len(states) :]
         residuals: list[Dual] = []
         with np.errstate(all="ignore"):
             for group in lowered.schedule.groups:
