@@ -12,8 +12,10 @@ WORKERS ?= 2
 .PHONY: demo test slow lint bench clean
 
 demo: ## a fresh virtual environment, install, simulate the four cranes, draw the figures
+	@echo "Installing into a fresh virtual environment, $(VENV) ..."
 	$(PYTHON) -m venv --clear $(VENV)
 	$(PIP) -e .
+	@echo "Simulating the crane ..."
 	$(BIN)/python -m acausal demo $(DEMO)
 
 $(VENV)/.installed-test: pyproject.toml

@@ -131,7 +131,7 @@ def _summary(system: System, solution: Solution, names: Sequence[str], compiled:
     width = max((len(name) for name in names), default=0)
     for name in names:
         values = np.asarray(solution[name])
-        unit = solution.describe(name)[0] or getattr(system.declaration_of(name), "unit", None) or ""
+        unit = solution.describe(name)[0]
         low, high, last = float(values.min()), float(values.max()), values[-1]
         end = f"{float(last):.6g}" if values.ndim == 1 else f"({values.shape[1]} values)"
         rows.append(f"  {name:<{width}}  min {low:<13.6g} max {high:<13.6g} end {end:<13} {unit}".rstrip())
