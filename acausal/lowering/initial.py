@@ -22,6 +22,9 @@ from .lowered import Lowered
 EASE_NOT_GIVEN, EASE_ALGEBRAIC = 1e2, 1e4
 """How much more readily than a state with a start value a state without one, or an algebraic unknown, is moved."""
 
+LEAST = 1e-8
+"""A state whose start value is less than 1, without a nominal value, is moved in the scale of the start value, but not
+less readily than this."""
 ACCEPTED = 1e-6
 """A condition holds if moving one variable by this fraction of its nominal value could make it hold exactly. Newton's
 method leaves much less; what is left is the rounding of start values that are given twice, as all coordinates of a
@@ -89,7 +92,10 @@ def initial_problem(reduced: Reduced, lowered: Lowered, families: list[Family], 
     remaining[: len(reduced.unknown)] = reduced.unknown
     targets = np.flatnonzero(fixed & remaining & ~is_state)
     given[: len(with_start)] = with_start
-    ease = lowered.x_nominal * np.where(given[source[states]], 1.0, EASE_NOT_GIVEN)
+    value = np.abs(flat.start[source[states]])
+    small = np.isnan(flat.nominal[states]) & (value > 0) & (value < 1)
+    trust = np.where(small, np.maximum(value, LEAST), 1.0)
+    ease = lowered.x_nominal * np.where(given[source[states]], trust, EASE_NOT_GIVEN)
     return InitialProblem(lowered, source, sign, fixed[states], targets, families, ease)
 
 
