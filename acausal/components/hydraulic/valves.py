@@ -51,6 +51,9 @@ class DirectionalValve(Component):
     Cd: Parameter = Parameter(0.65, unit="1", min=0.0, doc="discharge coefficient")
     p_tr: Parameter = Parameter(1e4, unit="Pa", min=0.0, doc="pressure drop of the transition to laminar flow")
     A_leak: Parameter = Parameter(1e-9, unit="m2", min=0.0, doc="leakage area of each way")
+    u_noise: Parameter = Parameter(
+        1e-12, unit="1", min=0.0, doc="rounding of u: up to -u_noise it counts as the middle"
+    )
     pa: VariableOrifice = VariableOrifice(Cd=Cd, p_tr=p_tr, A_leak=A_leak)
     at: VariableOrifice = VariableOrifice(Cd=Cd, p_tr=p_tr, A_leak=A_leak)
     pb: VariableOrifice = VariableOrifice(Cd=Cd, p_tr=p_tr, A_leak=A_leak)
@@ -66,7 +69,7 @@ class DirectionalValve(Component):
         yield self.bt.area == self.A_full * maximum(self.u, 0.0)
         yield self.pb.area == self.r_b * self.A_full * maximum(-self.u, 0.0)
         yield self.at.area == self.r_at * self.A_full * maximum(-self.u, 0.0)
-        yield self.p_ls == where(self.u >= 0, self.port_a.p, self.port_b.p)
+        yield self.p_ls == where(self.u >= -self.u_noise, self.port_a.p, self.port_b.p)
 
 
 class LoadControlValve(VariableOrifice):
