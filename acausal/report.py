@@ -10,6 +10,7 @@ import numpy as np
 
 from .language.flat_model import Family, FlatModel
 from .lowering.initial import ACCEPTED
+from .passes.places import declared
 
 if TYPE_CHECKING:
     from .system import System
@@ -110,15 +111,19 @@ def make_report(system: System) -> Report:
     )
 
 
-def explain_initial(system: System, x0: np.ndarray, w0: np.ndarray, left: np.ndarray) -> str:
+def explain_initial(
+    system: System, x0: np.ndarray, w0: np.ndarray, p: np.ndarray, left: np.ndarray, t0: float
+) -> str:
     """Why an initialization failed: the conditions that cannot be met, with their sources."""
     problem, flat, low = system.initial, system.stages.flat, system.lowered
+    values = np.asarray(low.observe(t0, x0, w0, p))
+    starts = np.asarray(system.program.starts(p, np))
     entries: list[tuple[float, str]] = []
     texts: list[str] = []
     if low.n_w:
-        texts += [f"the equation that determines `{n}`" for n in system.algebraics]
+        texts += [_determining(system, int(v)) for v in system.stages.schedule.tears]
     texts += [_place(flat, f, k) for f in system.stages.schedule.invariants for k in range(f.size)]
-    texts += [f"`{flat.name(int(v))}` has a fixed start value" for v in problem.targets]
+    texts += [_fixed(flat, int(v), starts, values) for v in problem.targets]
     extra = [_place(flat, f, k) for f in problem.families for k in range(f.size)]
     while len(texts) + len(extra) < len(left):
         texts.append("a value given as simulate(initial={...})")
@@ -135,14 +140,42 @@ def explain_initial(system: System, x0: np.ndarray, w0: np.ndarray, left: np.nda
     bad = [n for n, v in zip(names, np.concatenate([x0, w0]), strict=True) if not np.isfinite(v)]
     if bad:
         lines.append(f"Not finite at the start: {', '.join(bad[:8])}")
+        cause = system.diagnose_nonfinite(t0, x0, w0, p)
+        lines += [cause] if cause else []
     fixed = [n for n, f in zip(system.states, problem.fixed, strict=True) if f]
     if fixed:
-        lines.append(f"Held exactly: {_few(tuple(fixed))}")
+        held = [f"{n} = {v:.6g}" for n, v, f in zip(system.states, x0, problem.fixed, strict=True) if f]
+        lines.append(f"Held exactly (fixed start values): {_few(tuple(held))}")
+        lines += declared(flat, map(_owner, fixed))
     lines.append(
         "Try: fewer `fixed=True` start values where the conditions contradict each other, or better guesses (start "
         "values) for the variables named here."
     )
     return "\n".join(lines)
+
+
+def _owner(name: str) -> str:
+    """The component that a variable belongs to; the variable itself if that is the model."""
+    return name.rpartition(".")[0] or name
+
+
+def _determining(system: System, v: int) -> str:
+    """The equations of the block that an algebraic unknown is solved from, as far as they hold it."""
+    flat = system.stages.flat
+    found: list[str] = []
+    for family in system.stages.index.families:
+        for row in np.flatnonzero((family.var_rows == v).any(axis=1))[:2]:
+            found.append(_place(flat, family, int(row)))
+    lines = "".join(f"\n                   {text}" for text in found[:3])
+    return f"the equations that determine `{flat.name(v)}`{':' if lines else ''}{lines}"
+
+
+def _fixed(flat: FlatModel, v: int, starts: np.ndarray, values: np.ndarray) -> str:
+    """A fixed start value that is an equation of the initialization."""
+    wanted = f" {starts[v]:.6g}" if v < len(starts) and np.isfinite(starts[v]) else ""
+    got = f", but the other conditions give {values[v]:.6g}" if v < len(values) and np.isfinite(values[v]) else ""
+    places = declared(flat, [_owner(flat.name(v))])
+    return f"`{flat.name(v)}` has the fixed start value{wanted}{got}" + (f"  {places[0].strip()}" if places else "")
 
 
 def _place(flat: FlatModel, family: Family, row: int) -> str:

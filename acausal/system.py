@@ -218,12 +218,12 @@ class System:
                 overrides[int(representative[index])] = values[k] * int(sign[index])
         return overrides
 
-    def check_initial(self, x0: Any, w0: Any, p: Any, left: Any) -> None:
-        """Check concrete results of `initialize_with_residual`.
+    def check_initial(self, x0: Any, w0: Any, p: Any, left: Any, t0: Any = 0.0) -> None:
+        """Check concrete results of `initialize_with_residual`, at the start time t0 [s].
 
         Raises:
-            DeclarationError: a parameter has no value, or one outside its bounds.
-            InitializationError: it is no consistent start.
+            DeclarationError: a parameter has a value outside its bounds.
+            InitializationError: a parameter has no value, or the start is not consistent.
         """
         from .report import explain_initial
 
@@ -231,7 +231,13 @@ class System:
         values = np.concatenate([np.ravel(np.asarray(a)) for a in (x0, w0, left)])
         if np.isfinite(values).all() and (not np.size(left) or float(np.max(np.asarray(left))) <= ACCEPTED):
             return
-        raise InitializationError(explain_initial(self, np.asarray(x0), np.asarray(w0), np.asarray(left)))
+        raise InitializationError(explain_initial(self, *map(np.asarray, (x0, w0, p, left)), float(t0)))
+
+    def diagnose_nonfinite(self, t: Any, x: Any, w: Any, p: Any) -> str | None:
+        """Which equation gives NaN or infinity at a point, as text; None if none does. Concrete values only."""
+        from .nonfinite import explain_nonfinite
+
+        return explain_nonfinite(self, t, x, w, p)
 
     def vector_field(self, t: Any, x: Any, parameters: Mapping[str, Any] | Any = None) -> Any:
         """Time derivatives of the states, (n_x,). Pure JAX: jit, vmap and grad go through.

@@ -344,6 +344,11 @@ def _collect_one(
     for table in (declarations, structural, children):
         table.pop(name, None)
     if isinstance(value, Declaration):
+        if value.name != name:
+            raise DeclarationError(
+                f"`{cls.__name__}.{name}` and `{value.name}` share one {type(value).__name__} object: declare each "
+                f"with its own ({cls._source[0]}:{cls._source[1]})"
+            )
         declarations[name] = value
     elif isinstance(value, (Component, Array, Shared)) or (
         isinstance(value, (list, tuple)) and value and all(isinstance(v, Component) for v in value)

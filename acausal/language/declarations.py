@@ -154,12 +154,7 @@ class Declaration(_Arithmetic):
             raise DeclarationError(f"nominal={nominal!r} must be a positive number: it is a scale")
 
     def __set_name__(self, owner: type[Component], name: str) -> None:
-        if self.name and (self.name != name):
-            raise DeclarationError(
-                f"`{owner.__name__}.{name}` and `{self.name}` share one {type(self).__name__} object: declare each "
-                "with its own"
-            )
-        self.name = name
+        self.name = self.name or name  # a second name is an error of the class, raised when its body is gathered
         self.owner = owner
 
     @overload

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DeclarationError
+from ..errors import DeclarationError, InitializationError
 from ..language.declarations import Declaration
 from ..language.flat_model import FlatModel
 from ..language.template import Floats, Template
@@ -17,34 +17,35 @@ SHOWN = 5
 
 
 def check_parameters(flat: FlatModel, p: Any) -> None:
-    """Raise DeclarationError if a parameter is missing (NaN) or outside its bounds.
+    """Check the values of all parameters.
 
     Args:
         flat: the model.
         p: all parameters (n_p,), concrete.
+
+    Raises:
+        InitializationError: a parameter has no value.
+        DeclarationError: a value lies outside the declared bounds.
     """
     values = np.asarray(p)
     missing = np.flatnonzero(np.isnan(values))
     if len(missing):
-        lines = [_line(flat, int(i), "") for i in missing[:SHOWN]]
-        raise DeclarationError(
-            "\n".join(
-                [
-                    f"`{flat.model_name}`: {_many(len(missing))} no value (or NaN):",
-                    *lines,
-                    "Try: a value at construction, or simulate(parameters={...}); a dependent parameter is NaN if one it "
-                    "depends on is.",
-                ]
-            )
+        lines = [f"`{flat.model_name}`: {_many(len(missing))} no value (or NaN):"]
+        lines += [_line(flat, int(i), "") for i in missing[:SHOWN]]
+        lines.append(
+            "Try: a value at construction, or simulate(parameters={...}); a dependent parameter is NaN if one that it "
+            "depends on is."
         )
+        raise InitializationError("\n".join(lines))
     low, high = _bounds(flat.root)
     outside = np.flatnonzero((values[: flat.n_par] < low) | (values[: flat.n_par] > high))
     if len(outside):
-        lines = [
+        lines = [f"`{flat.model_name}`: {_many(len(outside))} a value out of bounds:"]
+        lines += [
             _line(flat, int(i), f" = {values[i]:.6g} lies outside its bounds [{low[i]:.6g}, {high[i]:.6g}]")
             for i in outside[:SHOWN]
         ]
-        raise DeclarationError("\n".join([f"`{flat.model_name}`: {_many(len(outside))} a value out of bounds:", *lines]))
+        raise DeclarationError("\n".join(lines))
 
 
 def _many(n: int) -> str:

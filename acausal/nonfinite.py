@@ -1,0 +1,72 @@
+"""Where a value that is not finite comes from: the first equation that makes one out of finite values."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .language.flat_model import Bools, Family, FlatModel
+from .language.template import Floats
+from .symbolic.expr import Expr
+from .symbolic.traverse import evaluate
+
+if TYPE_CHECKING:
+    from .system import System
+
+SHOWN = 6
+"""Quantities named with their values."""
+
+
+def explain_nonfinite(system: System, t: Any, x: Any, w: Any, p: Any) -> str | None:
+    """Equations that give a non-finite value although all that goes in is finite; None if there are none.
+
+    Args:
+        system: a compiled system.
+        t: time [s].
+        x, w, p: states, algebraic unknowns, parameters, concrete.
+    """
+    flat = system.stages.flat
+    parameters = np.asarray(p, float)
+    with np.errstate(all="ignore"):
+        values = np.asarray(system.lowered.observe(t, x, w, p), float)
+        found = [
+            (family, int(row))
+            for family in flat.families
+            for row in np.flatnonzero(_culprits(family, values, parameters, float(t)))[:SHOWN]
+        ]
+    if not found:
+        return None
+    lines = ["It comes from:"]
+    for family, row in found[:3]:
+        component, place = flat.equation_place(family, row)
+        lines.append(f"    {flat.equation_text(family, row)}    {component or '(model)'}  {place}")
+        lines.append(f"    with {_given(flat, family, row, values, parameters)}")
+    return "\n".join(lines)
+
+
+def _culprits(family: Family, values: Floats, parameters: Floats, t: float) -> Bools:
+    """Rows whose only non-finite variable, put to one, leaves the residual non-finite."""
+    columns = values[np.minimum(family.var_rows, len(values) - 1)]
+    bad = ~np.isfinite(columns)
+    some = bad.any(axis=1)
+    if not some.any():
+        return some
+    first = family.var_rows[np.arange(len(bad)), bad.argmax(axis=1)]
+    one = some & (~bad | (family.var_rows == first[:, None])).all(axis=1)
+    filled = np.where(bad, 1.0, columns)
+
+    def leaf(node: Expr) -> Any:
+        if node.op == "var":
+            return filled[:, node.value]
+        return parameters[family.par_rows[:, node.value]] if node.op == "par" else t
+
+    residual = np.broadcast_to(np.asarray(evaluate((family.residual,), leaf, np)[0], float), one.shape)
+    return one & ~np.isfinite(residual)
+
+
+def _given(flat: FlatModel, family: Family, row: int, values: Floats, parameters: Floats) -> str:
+    """Names and values of what goes into an equation."""
+    variables = [(flat.name(int(v)), values[int(v)]) for v in family.var_rows[row] if int(v) < len(values)]
+    constants = [(flat.parameter_name(int(i)), parameters[int(i)]) for i in family.par_rows[row]]
+    return ", ".join(f"{name} = {value:.6g}" for name, value in [*variables, *constants][:SHOWN])

@@ -1,0 +1,457 @@
+"""Errors of declarations, modifications and equations: the field, the class and the user's line are named."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import acausal as ac
+
+from .user import error_of
+
+CASES = {
+    "misspelt modification": (
+        """
+        RC(resitor=Resistor())  # HERE
+        """,
+        ["`RC` has no field `resitor`", "Did you mean `resistor`"],
+    ),
+    "misspelt modification in a class body": (
+        """
+        class Board(Component):
+            rc: RC = RC(resistor=Resistor(r=2.0))  # HERE
+        """,
+        ["`Resistor` has no field `r`", "Did you mean `R`"],
+    ),
+    "no name is near": (
+        """
+        Resistor(voltage=2.0)  # HERE
+        """,
+        ["no field `voltage`", "It has: v, i, R, p, n"],
+    ),
+    "misspelt path": (
+        """
+        ac.redeclare(RC(), {"resitor": Resistor()})  # HERE
+        """,
+        ["`RC` has no field `resitor`", "`resistor`"],
+    ),
+    "wrong replacement type": (
+        """
+        RC(resistor=Ground())  # HERE
+        """,
+        ["`RC.resistor` is declared as `TwoPin`", "not `Ground`"],
+    ),
+    "a class instead of an instance": (
+        """
+        RC(resistor=Resistor)  # HERE
+        """,
+        ["class `Resistor` itself (call it)"],
+    ),
+    "a number instead of a component": (
+        """
+        RC(resistor=3.0)  # HERE
+        """,
+        ["`TwoPin`", "not `float`"],
+    ),
+    "text instead of a number": (
+        """
+        Resistor(R="3")  # HERE
+        """,
+        ["Resistor(R='3')", "not `str`"],
+    ),
+    "text instead of a start value": (
+        """
+        Resistor(v="3")  # HERE
+        """,
+        ["`v=start(2.0, fixed=True)`"],
+    ),
+    "a list instead of a number": (
+        """
+        class M(Component):
+            r: Resistor = Resistor(R=[1.0, 2.0])
+
+        ac.compile(M())
+        """,
+        ["`r.R` is one parameter but was given 2 values", "Array(component, n, R=[...])"],
+    ),
+    "plain float field": (
+        """
+        class M(Component):  # HERE
+            R: float = 3.0
+        """,
+        ["`M.R: float = 3.0` is a plain float", "Parameter(3.0)"],
+    ),
+    "a type without a value": (
+        """
+        class M(Component):  # HERE
+            R: Parameter
+        """,
+        ["field `M.R` has a type but no value", "`R: Parameter = ...`"],
+    ),
+    "partial class": (
+        """
+        class Ideal(TwoPin, partial=True):  # HERE
+            pass
+
+        class M(RC):
+            resistor: TwoPin = Ideal()
+
+        ac.compile(M())
+        """,
+        ["`resistor` is an instance of the partial class `Ideal`", "one of its subclasses"],
+    ),
+    "missing super().equations()": (
+        """
+        class Cheap(TwoPin):
+            def equations(self) -> Equations:  # HERE
+                yield self.v == 2
+
+        ac.compile(RC(resistor=Cheap()))
+        """,
+        ["`Cheap.equations` never runs `super().equations()`", "`TwoPin` are lost", "yield from super().equations()"],
+    ),
+    "super().equations() without yield from": (
+        """
+        class Cheap(TwoPin):
+            def equations(self) -> Equations:  # HERE
+                super().equations()
+                yield self.v == 2
+
+        ac.compile(RC(resistor=Cheap()))
+        """,
+        ["never runs `super().equations()`"],
+    ),
+    "equations returns a list": (
+        """
+        class M(Component):
+            x: Variable = Variable()
+
+            def equations(self):  # HERE
+                return [self.x == 3]
+
+        ac.compile(M())
+        """,
+        ["`M.equations` must be a generator", "do not return list"],
+    ),
+    "an expression instead of an equation": (
+        """
+        class M(Component):
+            x: Variable = Variable()
+
+            def equations(self):
+                yield self.x - 3  # HERE
+
+        ac.compile(M())
+        """,
+        ["`M.equations` yields Expr(x - 3)", "yield `lhs == rhs`"],
+    ),
+    "a Python bool instead of an equation": (
+        """
+        class M(Component):
+            n: int = 3
+
+            def equations(self):
+                yield self.n == 3  # HERE
+
+        ac.compile(M())
+        """,
+        ["`M.equations` yields True", "one side of `==` must be a variable"],
+    ),
+    "if on an expression": (
+        """
+        class M(Component):
+            x: Variable = Variable()
+
+            def equations(self):
+                if self.x > 0:  # HERE
+                    yield self.x == 1
+
+        ac.compile(M())
+        """,
+        ["in `M.equations`", "truth value of the expression `x > 0`", "where(condition, a, b)"],
+    ),
+    "bool of an equation": (
+        """
+        class M(Component):
+            x: Variable = Variable()
+            y: Variable = Variable()
+
+            def equations(self):
+                assert self.x == self.y  # HERE
+                yield self.x == 1
+
+        ac.compile(M())
+        """,
+        ["`x = y` is an equation, which is neither true nor false", "yield it from equations()"],
+    ),
+    "and between conditions": (
+        """
+        class M(Component):
+            x: Variable = Variable()
+
+            def equations(self):
+                yield self.x == ac.where(self.x > 0 and self.x < 1, 1, 0)  # HERE
+
+        ac.compile(M())
+        """,
+        ["`&` and `|` instead of `and` and `or`"],
+    ),
+    "a connector in an equation": (
+        """
+        class M(Component):
+            x: Variable = Variable()
+            r: Resistor = Resistor()
+
+            def equations(self):
+                yield self.x == self.r.p  # HERE
+
+        ac.compile(M())
+        """,
+        ["Pin cannot stand in an equation", "`self.port.p`"],
+    ),
+    "a function of math": (
+        """
+        import math
+        class M(Component):
+            x: Variable = Variable()
+
+            def equations(self):
+                yield self.x == math.sin(self.x)  # HERE
+
+        ac.compile(M())
+        """,
+        ["`x` is a symbol, not a number", "acausal.sin"],
+    ),
+    "a function of numpy": (
+        """
+        import numpy as np
+        class M(Component):
+            x: Variable = Variable()
+
+            def equations(self):
+                yield self.x == np.sin(self.x)  # HERE
+
+        ac.compile(M())
+        """,
+        ["`x` is a symbol, not an array", "acausal.sin"],
+    ),
+    "a field that is not there": (
+        """
+        class M(Component):
+            r: Resistor = Resistor()
+
+            def equations(self):
+                yield self.r.p.V == 3  # HERE
+
+        ac.compile(M())
+        """,
+        ["component `r.p` of class `Pin` has no field `V`", "Did you mean `v`"],
+    ),
+    "self forgotten": (
+        """
+        class M(Component):
+            x: Variable = Variable()
+            k: Parameter = Parameter(1.0)
+
+            def equations(self):
+                yield self.x == M.k  # HERE
+
+        ac.compile(M())
+        """,
+        ["`k` in equations() is the declaration of the class", "`self.k`"],
+    ),
+    "unknown inner": (
+        """
+        class World(Component):
+            g: Parameter = Parameter(9.81)
+
+        class Body(Component):  # HERE
+            world: World = ac.outer(World())
+            x: Variable = Variable()
+
+            def equations(self):
+                yield self.x == self.world.g
+
+        class M(Component):
+            body: Body = Body()
+
+        ac.compile(M())
+        """,
+        ["`body.world` is declared `outer`", "`world: World = ac.inner(World())`"],
+    ),
+    "parameter out of bounds": (
+        """
+        Resistor(R=-1.0)  # HERE
+        """,
+        ["parameter `Resistor.R` = -1.0 lies outside its bounds [0.0, inf]"],
+    ),
+    "parameter that is NaN": (
+        """
+        Resistor(R=float("nan"))  # HERE
+        """,
+        ["parameter `Resistor.R` is NaN"],
+    ),
+    "an expression outside a class body": (
+        """
+        class M(Component):
+            k: Parameter = Parameter(1.0)
+
+        ac.compile(M(k=2 * ac.time))
+        """,
+        ["`k` of the model was given the expression `2*time`", "give numbers"],
+    ),
+    "a parameter of another class": (
+        """
+        class M(Component):  # HERE
+            r: Resistor = Resistor(R=Source.V)
+
+        ac.compile(M())
+        """,
+        ["refers to `V`, which is not a field of that class"],
+    ),
+    "connect in initial equations": (
+        """
+        class M(Component):
+            a: Ground = Ground()
+            b: Ground = Ground()
+
+            def initial_equations(self):
+                yield connect(self.a.p, self.b.p)  # HERE
+
+        ac.compile(M())
+        """,
+        ["initial_equations() of `M` yields a connect()"],
+    ),
+    "a class compiled": (
+        """
+        ac.compile(RC)
+        """,
+        ["not the class `RC`: call it"],
+    ),
+    "something else compiled": (
+        """
+        ac.compile(3)
+        """,
+        ["not int"],
+    ),
+    "one declaration for two fields": (
+        """
+        v = Variable()
+        class M(Component):  # HERE
+            x: Variable = v
+            y: Variable = v
+        """,
+        ["`M.y` and `x` share one Variable object"],
+    ),
+    "nominal that is no scale": (
+        """
+        Variable(nominal=0.0)
+        """,
+        ["nominal=0.0 must be a positive number"],
+    ),
+    "wrong state_select": (
+        """
+        Variable(state_select="maybe")
+        """,
+        ["state_select='maybe'", "prefer"],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_declaration_errors(name: str, tmp_path: Path) -> None:
+    text, words = CASES[name]
+    error_of(tmp_path, text, ac.DeclarationError, words)
+
+
+CONNECT = {
+    "unlike connectors": (
+        """
+        class Flange(Connector):
+            s: Potential = Potential()
+            f: Flow = Flow()
+
+        class Mass(Component):
+            flange: Flange = Flange()
+
+        class M(Component):
+            r: Resistor = Resistor()
+            m: Mass = Mass()
+
+            def equations(self):
+                yield connect(self.r.p, self.m.flange)  # HERE
+
+        ac.compile(M())
+        """,
+        ["connect(r.p, m.flange)", "connector `Pin`", "connector `Flange`", "unlike"],
+    ),
+    "a component": (
+        """
+        class M(Component):
+            r: Resistor = Resistor()
+            m: Resistor = Resistor()
+
+            def equations(self):
+                yield connect(self.r, self.m)  # HERE
+
+        ac.compile(M())
+        """,
+        ["not component `r`", "one of its ports"],
+    ),
+    "a signal and a connector": (
+        """
+        class M(Component):
+            u: Input = Input()
+            r: Resistor = Resistor()
+
+            def equations(self):
+                yield connect(self.r.p, self.u)  # HERE
+
+        ac.compile(M())
+        """,
+        ["connector `Pin` and a signal are unlike"],
+    ),
+    "slices of different length": (
+        """
+        class M(Component):
+            r: Array[Resistor] = Array(Resistor(), 4)
+
+            def equations(self):
+                yield connect(self.r[:-1].n, self.r[2:].p)  # HERE
+
+        ac.compile(M())
+        """,
+        ["slices of 3 and 2 elements do not fit"],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CONNECT)
+def test_connect_errors(name: str, tmp_path: Path) -> None:
+    text, words = CONNECT[name]
+    error_of(tmp_path, text, ac.ConnectError, words)
+
+
+def test_unit_errors(tmp_path: Path) -> None:
+    text = """
+        class Bad(TwoPin):
+            R: Parameter = Parameter(1.0, unit="ohm")
+
+            def equations(self) -> Equations:
+                yield from super().equations()
+                yield self.v == self.R  # HERE
+
+        ac.compile(RC(resistor=Bad()))
+        """
+    words = ["`Bad` (component `resistor`)", "v == R", "v  has unit V", "R  has unit ohm", "factor of unit A", "Try:"]
+    error_of(tmp_path, text, ac.UnitError, words)
+
+
+def test_unknown_fields_are_attribute_errors_too() -> None:
+    """So that `hasattr`, `getattr` with a default and interactive shells work."""
+    from ..language.parts import RC
+
+    assert not hasattr(RC(), "resitor")
+    assert getattr(RC(), "resitor", 3) == 3
+    assert not hasattr(RC(), "_repr_html_")

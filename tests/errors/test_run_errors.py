@@ -1,0 +1,205 @@
+"""Errors of a run: names, parameters, initial conditions, values that are not finite."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from textwrap import dedent
+
+import pytest
+
+import acausal as ac
+
+from .user import error_of
+
+UNKNOWN = {
+    "parameter": (
+        """
+        ac.compile(RC()).simulate(1.0, parameters={"resistor.r": 1.0})
+        """,
+        ["no parameter `resistor.r`", "Did you mean `resistor.R`"],
+    ),
+    "initial": (
+        """
+        ac.compile(RC()).simulate(1.0, initial={"capacitor.V": 1.0})
+        """,
+        ["no variable `capacitor.V`", "`capacitor.v`"],
+    ),
+    "a variable as a parameter": (
+        """
+        ac.compile(RC()).simulate(1.0, parameters={"resistor.v": 1.0})
+        """,
+        ["`resistor.v` is a variable, not a parameter"],
+    ),
+    "input": (
+        """
+        ac.compile(RC(), inputs=("u",))
+        """,
+        ["`u` is not an `Input` of the model `RC` itself"],
+    ),
+    "output": (
+        """
+        ac.compile(RC(), outputs=("resistor.V",))
+        """,
+        ["no variable `resistor.V`", "`resistor.v`"],
+    ),
+    "result": (
+        """
+        ac.compile(RC()).simulate(1.0)["capacitor.q"]
+        """,
+        ["no variable `capacitor.q`"],
+    ),
+    "index": (
+        """
+        class M(Component):
+            r: Array[Resistor] = Array(Resistor(), 3)
+            g: Ground = Ground()
+
+            def equations(self):
+                yield connect(self.r.p, self.g.p)
+                yield connect(self.r.n, self.g.p)
+
+        ac.compile(M()).index_of("r[3].v")
+        """,
+        ["no variable `r[3].v`", "`r[0].v`"],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", UNKNOWN)
+def test_unknown_names(name: str, tmp_path: Path) -> None:
+    text, words = UNKNOWN[name]
+    error = error_of(tmp_path, text, ac.UnknownNameError, words)
+    assert isinstance(error, KeyError)
+
+
+def test_parameter_without_value(tmp_path: Path) -> None:
+    text = """
+        class M(Component):
+            k: Parameter = Parameter(unit="1/s")  # HERE
+            x: Variable = Variable(start=1.0, fixed=True)
+
+            def equations(self):
+                yield der(self.x) == self.k * self.x
+
+        ac.compile(M()).simulate(1.0)
+        """
+    error_of(tmp_path, text, ac.InitializationError, ["`k` [1/s]", "no value", "simulate(parameters={...})"])
+
+
+def test_parameter_out_of_bounds_at_simulate(tmp_path: Path) -> None:
+    text = PARAMETER_LINE + 'ac.compile(RC(resistor=Bounded())).simulate(1.0, parameters={"resistor.k": -1.0})\n'
+    words = ["`resistor.k` [1] = -1 lies outside its bounds [0, 5]"]
+    error_of(tmp_path, text, ac.DeclarationError, words)
+    dependent = text.replace('"resistor.k": -1.0', '"resistor.base": 9.0')
+    error_of(tmp_path, dependent, ac.DeclarationError, ["`resistor.k` [1] = 18 lies outside"])
+
+
+PARAMETER_LINE = """\
+class Bounded(Resistor):
+    base: Parameter = Parameter(1.0)
+    k: Parameter = Parameter(2 * base, unit="1", min=0.0, max=5.0)  # HERE
+
+"""
+
+INITIAL = {
+    "two fixed values that contradict": (
+        """
+        class M(Component):
+            x: Variable = Variable(start=1.0, fixed=True)  # HERE
+            y: Variable = Variable(start=3.0, fixed=True)  # HERE
+
+            def equations(self):
+                yield der(self.x) == -self.x
+                yield self.y == 2 * self.x
+
+        MODEL = M
+        """,
+        ["`y` has the fixed start value 3, but the other conditions give 2", "x = 1", "fixed=True"],
+    ),
+    "an initial equation against a fixed value": (
+        """
+        class M(Component):
+            x: Variable = Variable(start=1.0, fixed=True)  # HERE
+
+            def equations(self):
+                yield der(self.x) == -self.x
+
+            def initial_equations(self):
+                yield self.x == 4  # HERE
+
+        MODEL = M
+        """,
+        ["x = 4", "Held exactly (fixed start values): x = 1"],
+    ),
+    "two charged capacitors in parallel": (
+        """
+        class M(Component):
+            a: Capacitor = Capacitor(v=start(1.0, fixed=True))  # HERE
+            b: Capacitor = Capacitor(v=start(2.0, fixed=True))  # HERE
+            g: Ground = Ground()
+
+            def equations(self):
+                yield connect(self.a.p, self.b.p)
+                yield connect(self.a.n, self.b.n, self.g.p)
+
+        MODEL = M
+        """,
+        ["has the fixed start value", "but the other conditions give"],
+    ),
+    "an algebraic equation without solution": (
+        """
+        class M(Component):
+            x: Variable = Variable(start=1.0, fixed=True)
+            y: Variable = Variable()
+
+            def equations(self):
+                yield der(self.x) == -self.x
+                yield self.y**2 + self.x + 2 == ac.sin(self.y)  # HERE
+
+        MODEL = M
+        """,
+        ["the equations that determine `y`", "better guesses"],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", INITIAL)
+def test_inconsistent_initial_conditions(name: str, tmp_path: Path) -> None:
+    text, words = INITIAL[name]
+    run = "ac.compile(MODEL()).simulate(1.0)\n"
+    error_of(tmp_path, dedent(text) + run, ac.InitializationError, [*words, "found no consistent start", "Try:"])
+    check = "system = ac.compile(MODEL())\nsystem.check_initial(*system.initialize_with_residual(0.0, None, None))\n"
+    error_of(tmp_path, dedent(text) + check, ac.InitializationError, words)
+
+
+BAD_RUN = """\
+class M(Component):
+    x: Variable = Variable(start=1.0, fixed=True)
+    z: Variable = Variable(start=1.0, fixed=True)
+    y: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield der(self.x) == -1
+        yield self.y == ac.log(self.x)  # HERE
+        yield der(self.z) == self.y
+
+
+"""
+
+
+def test_nan_in_the_run(tmp_path: Path) -> None:
+    words = ["stopped at t = 1 s of 2 s", "der(z) is nan", "y = log(x)", "It comes from:"]
+    error_of(tmp_path, BAD_RUN + "ac.compile(M()).simulate(2.0)\n", ac.SimulationError, words)
+
+
+def test_nan_at_the_start(tmp_path: Path) -> None:
+    words = ["stopped at t = 0 s of 2 s", "der(z) is nan", "y = log(x)", "x = -1"]
+    error_of(tmp_path, BAD_RUN + "ac.compile(M(x=start(-1.0))).simulate(2.0)\n", ac.SimulationError, words)
+
+
+def test_a_point_that_is_finite_has_no_culprit(tmp_path: Path) -> None:
+    from ..language.parts import RC
+
+    system = ac.compile(RC())
+    x0, w0, p = system.initialize()
+    assert system.diagnose_nonfinite(0.0, x0, w0, p) is None
