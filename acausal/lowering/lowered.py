@@ -14,11 +14,12 @@ import numpy as np
 
 from ..language.flat_model import Family
 from ..language.template import Floats, Ints
-from ..passes.schedule import Group, Schedule, needs
+from ..passes.schedule import Group, Kernel, Schedule, needs
 from ..symbolic.expr import Expr, par, var
 from ..symbolic.traverse import evaluate, substitute
 from .environment import Environment
 from .newton import newton_root
+from .repetition import Repetition, emit, plan
 
 WIDE = 24
 """Sums of more terms than this are emitted as a gather and a reduction."""
@@ -42,6 +43,7 @@ class Lowered:
         self.w_nominal = nominal[schedule.tears]
         self.nominal = nominal
         self._global: dict[int, Any] = {}
+        self._plans: dict[tuple[int, ...], list[Group | Repetition]] = {}
         derivative_of = schedule.reduced.derivative_of
         self.dx_ids = derivative_of[schedule.states]
 
@@ -145,16 +147,26 @@ class Lowered:
         for k, group in enumerate(self.schedule.groups):
             starts[k] = offset
             offset += group.size * len(group.kernel.tears) if group.kernel.iterates else 0
-        for k in groups:
-            group = self.schedule.groups[k]
-            if group.kernel.iterates and solve:
-                n, m = group.size, len(group.kernel.tears)
+        position = {id(self.schedule.groups[k]): k for k in groups}
+        for item in self._plan(tuple(groups)):
+            if isinstance(item, Repetition):
+                emitter.repetition(item)
+                continue
+            k = position[id(item)]
+            if item.kernel.iterates and solve:
+                n, m = item.size, len(item.kernel.tears)
                 guess = w[starts[k] : starts[k] + n * m].reshape(n, m)
-                self._solve_block(emitter, group, guess)
-            result = emitter.group(group, self._global_form(k))
-            if group.kernel.iterates:
+                self._solve_block(emitter, item, guess)
+            result = emitter.group(item, self._global_form(k))
+            if item.kernel.iterates:
                 residuals[k] = result
         return env, residuals
+
+    def _plan(self, groups: tuple[int, ...]) -> list[Group | Repetition]:
+        """The groups with long chains folded into loops."""
+        if groups not in self._plans:
+            self._plans[groups] = plan([self.schedule.groups[k] for k in groups])
+        return self._plans[groups]
 
     def _solve_block(self, emitter: _Emitter, group: Group, guess: Any) -> None:
         """Newton's method on all blocks of a group at once."""
@@ -188,8 +200,8 @@ class Lowered:
         jnp = env.jnp
         if not len(ids):
             return jnp.zeros(0)
-        if len(ids) <= 256:
-            return jnp.stack([env.scalar(int(i)) for i in ids]) if len(ids) > 1 else jnp.atleast_1d(env.scalar(int(ids[0])))
+        if len(ids) <= 64:
+            return jnp.stack([env.scalar(int(i)) for i in ids])
         return jnp.broadcast_to(env.gather(ids), (len(ids),))
 
     def _residual_vector(self, residuals: dict[int, Any]) -> Any:
@@ -262,8 +274,9 @@ class _Emitter:
         steps, residuals, matrix, rhs, tears = form
         jnp = self.jnp
         if matrix:
-            a = jnp.stack([jnp.stack([self._scalar(v) for v in evaluate(line, self._leaf, jnp, self.memo)]) for line in matrix])
-            b = jnp.stack([self._scalar(v) for v in evaluate(rhs, self._leaf, jnp, self.memo)])
+            lines = [evaluate(line, self._leaf, jnp, self.memo) for line in (*matrix, rhs)]
+            *rows, b = [jnp.stack([self._scalar(v) for v in line]) for line in lines]
+            a = jnp.stack(rows)
             solution = jnp.linalg.solve(a, b)
             for i, index in enumerate(tears):
                 self.env.put_scalar(index, solution[i])
@@ -274,10 +287,12 @@ class _Emitter:
         return None
 
     def _scalar(self, value: Any) -> Any:
-        return self.jnp.asarray(value, float) if isinstance(value, (int, float)) else value * 1.0 if self._is_bool(value) else value
+        if isinstance(value, (int, float)):
+            return self.jnp.asarray(value, float)
+        return value * 1.0 if self._is_bool(value) else value
 
     def _is_bool(self, value: Any) -> bool:
-        return getattr(value, "dtype", None) == bool
+        return getattr(value, "dtype", None) == np.dtype(bool)
 
     def _wide(self, group: Group) -> Any:
         index, expression = group.kernel.steps[0]
@@ -305,35 +320,46 @@ class _Emitter:
         return self.p[rows]
 
     def _batch(self, group: Group) -> Any:
-        kernel, jnp, n = group.kernel, self.jnp, group.size
-        rows: dict[int, Any] = {}
+        kernel, n = group.kernel, group.size
         columns: dict[int, Any] = {}
+        for j in range(kernel.size if not kernel.iterates else 0, group.var_rows.shape[1]):
+            columns[j] = self.env.gather(group.var_rows[:, j])
+        if kernel.iterates:
+            columns = {j: v for j, v in columns.items() if j >= kernel.size or j in kernel.tears}
+        parameters = [self.parameter_column(group.par_rows[:, j]) for j in range(group.par_rows.shape[1])]
+        found, residuals = self.kernel(kernel, columns, parameters, n)
+        for u, value in found.items():
+            self.env.put(group.var_rows[:, u], value)
+        return residuals
+
+    def kernel(self, kernel: Kernel, columns: dict[int, Any], parameters: list[Any], n: int) -> tuple[dict[int, Any], Any]:
+        """Unknowns of `n` blocks with one kernel (columns by slot), and the residuals of an iterating one (n, tears)."""
+        jnp = self.jnp
+        values = dict(columns)
 
         def leaf(node: Expr) -> Any:
-            if node.op == "time":
-                return self.t
-            if node.op == "par":
-                if node.value not in columns:
-                    columns[node.value] = self.parameter_column(group.par_rows[:, node.value])
-                return columns[node.value]
-            if node.value not in rows:
-                rows[node.value] = self.env.gather(group.var_rows[:, node.value])
-            return rows[node.value]
+            return self.t if node.op == "time" else parameters[node.value] if node.op == "par" else values[node.value]
 
         memo: dict[int, Any] = {}
+        found: dict[int, Any] = {}
         if kernel.matrix:
-            lines = [jnp.stack([self._column(v, n) for v in evaluate(line, leaf, jnp, memo)], 1) for line in kernel.matrix]
+            entries = [[self._column(v, n) for v in evaluate(line, leaf, jnp, memo)] for line in kernel.matrix]
+            a = jnp.stack([jnp.stack(line, 1) for line in entries], 1)
             b = jnp.stack([self._column(v, n) for v in evaluate(kernel.rhs, leaf, jnp, memo)], 1)
-            solution = jnp.linalg.solve(jnp.stack(lines, 1), b[..., None])[..., 0]
+            solution = jnp.linalg.solve(a, b[..., None])[..., 0]
             for i, u in enumerate(kernel.tears):
-                rows[u] = solution[:, i]
-                self.env.put(group.var_rows[:, u], solution[:, i])
+                found[u] = values[u] = solution[:, i]
         for u, expression in kernel.steps:
-            rows[u] = self._column(evaluate((expression,), leaf, jnp, memo)[0], n)
-            self.env.put(group.var_rows[:, u], rows[u])
-        if kernel.residuals:
-            return jnp.stack([self._column(v, n) for v in evaluate(kernel.residuals, leaf, jnp, memo)], 1)
-        return None
+            found[u] = values[u] = self._column(evaluate((expression,), leaf, jnp, memo)[0], n)
+        if not kernel.residuals:
+            return found, None
+        return found, jnp.stack([self._column(v, n) for v in evaluate(kernel.residuals, leaf, jnp, memo)], 1)
+
+    def repetition(self, chain: Repetition) -> None:
+        """A chain of equal blocks as one loop."""
+        values = self.jnp.broadcast_to(self.env.gather(chain.external), chain.external.shape)
+        made = emit(chain, values, self.p, lambda *given: self.kernel(*given)[0])
+        self.env.put(chain.produced, made)
 
     def _column(self, value: Any, n: int) -> Any:
         value = value * 1.0 if self._is_bool(value) else value

@@ -145,11 +145,16 @@ def _singles(reduced: IndexReduced, rows: Ints, assignment: Ints, level: Ints) -
         slot = (var_rows == assignment[rows[mine]][:, None]).argmax(axis=1)
         lv = level[mine]
         keys, which = np.unique(np.stack([lv, slot], axis=1), axis=0, return_inverse=True)
+        by_key = np.argsort(which.ravel(), kind="stable")
+        bounds = np.searchsorted(which.ravel()[by_key], np.arange(len(keys) + 1))
+        kernels: dict[int, Kernel] = {}
         for g, (at_level, s) in enumerate(keys.tolist()):
-            pick = np.flatnonzero(which.ravel() == g)
+            pick = by_key[bounds[g] : bounds[g + 1]]
             others = [j for j in range(var_rows.shape[1]) if j != s]
             columns = var_rows[pick][:, [s, *others]]
-            kernel = _single_kernel(family.residual, s, others)
+            if s not in kernels:
+                kernels[s] = _single_kernel(family.residual, s, others)
+            kernel = kernels[s]
             groups.append(
                 Group(kernel, at_level, columns, family.par_rows[local[pick]], rows[mine][pick][:, None])
             )
