@@ -45,9 +45,9 @@ def test_value_and_derivatives(n: int) -> None:
     field = lambda x: system.vector_field(0.0, x)  # noqa: E731
     value, slope = by_hand(n, 0.7)
     x = jnp.array([0.7])
-    assert field(x)[0] == pytest.approx(value, rel=1e-13)
-    assert jax.jacfwd(field)(x)[0, 0] == pytest.approx(slope, rel=1e-11, abs=1e-300)
-    assert jax.jacrev(field)(x)[0, 0] == pytest.approx(slope, rel=1e-11, abs=1e-300)
+    assert float(field(x)[0]) == pytest.approx(value, rel=1e-13)
+    assert float(jax.jacfwd(field)(x)[0, 0]) == pytest.approx(slope, rel=1e-11, abs=1e-300)
+    assert float(jax.jacrev(field)(x)[0, 0]) == pytest.approx(slope, rel=1e-11, abs=1e-300)
 
 
 def test_program_does_not_grow() -> None:
@@ -63,8 +63,10 @@ def test_parameters_of_each_link() -> None:
     y = 0.7
     for k in gains:
         y = k * np.sin(y) + 0.001
-    assert system.vector_field(0.0, jnp.array([0.7]))[0] == pytest.approx(-y, rel=1e-13)
+    assert float(system.vector_field(0.0, jnp.array([0.7]))[0]) == pytest.approx(-y, rel=1e-13)
     slope = jax.grad(lambda v: system.vector_field(0.0, jnp.array([0.7]), {"links[3].k": v})[0])(gains[3])
     h = 1e-6
-    up, down = (system.vector_field(0.0, jnp.array([0.7]), {"links[3].k": gains[3] + s * h})[0] for s in (1, -1))
-    assert slope == pytest.approx((up - down) / (2 * h), rel=1e-7)
+    up, down = (
+        float(system.vector_field(0.0, jnp.array([0.7]), {"links[3].k": gains[3] + s * h})[0]) for s in (1, -1)
+    )
+    assert float(slope) == pytest.approx((up - down) / (2 * h), rel=1e-7)
