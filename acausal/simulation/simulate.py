@@ -17,6 +17,7 @@ from jax import Array
 from acausal.errors import SimulationError
 
 from .cache import cache_of
+from .controller import ErrorControl
 from .failure import explain
 from .inputs import drive
 from .jit import compiled_for, ensure_x64, inside_jit, is_traced
@@ -90,7 +91,7 @@ def simulate(
         throw: raise `SimulationError` when the solve fails; otherwise the solution ends early and says so in `result`.
         progress: show a progress bar (not under JAX transformations).
         dt: step [s] of a fixed-step solve (`RK4()`), or the first step of an adaptive one.
-        stepsize_controller: default `diffrax.PIDController` with the tolerances, or constant steps for a solver
+        stepsize_controller: default `ErrorControl` with the tolerances, or constant steps for a solver
             without an error estimate.
         adjoint: how diffrax differentiates; `diffrax.ForwardMode()` for `jax.jvp` and `jax.jacfwd`.
 
@@ -243,10 +244,8 @@ def _solve(
     adaptive = isinstance(settings.solver, diffrax.AbstractAdaptiveSolver)
     controller = settings.controller
     if controller is None and adaptive:
-        smallest = 10 * jnp.finfo(float).eps * jnp.maximum(jnp.abs(t0), jnp.abs(t1))
-        controller = diffrax.PIDController(
-            rtol=rtol, atol=scale, norm=_largest, pcoeff=0.4, icoeff=0.3, dtmin=smallest, force_dtmin=False
-        )
+        smallest = 1e-14 * jnp.maximum(jnp.maximum(jnp.abs(t0), jnp.abs(t1)), jnp.abs(t1 - t0))
+        controller = ErrorControl(rtol=rtol, atol=scale, smallest=smallest)
     elif controller is None:
         controller = diffrax.ConstantStepSize()
     if not settings.has_dt:
@@ -362,11 +361,6 @@ def _linear_solver(lowered: Lowered) -> AbstractLinearSolver:
 
     csr = lowered.sparsity().tocsr()
     return sparse_linear_solver(csr, np.asarray(color_columns(csr)))
-
-
-def _largest(error: Array) -> Array:
-    """Norm of a scaled error: a mean would hide one active cell among thousands at rest."""
-    return jnp.max(jnp.abs(error), initial=0.0)
 
 
 def _named(counts: list[Any], solver: Any) -> dict[str, Any]:

@@ -1,0 +1,79 @@
+"""Error control by the largest scaled error, with steps across discontinuities."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import diffrax
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from diffrax import RESULTS, AbstractAdaptiveStepSizeController
+from jax import Array
+
+FORCED_STEPS = 50
+"""So many steps in a row may be forced; more means that the solution does not leave the discontinuity."""
+
+
+def largest(error: Array) -> Array:
+    """Norm of a scaled error: a mean would hide one active cell among thousands at rest."""
+    return jnp.max(jnp.abs(error), initial=0.0)
+
+
+class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
+    """PI control of the step size, that crosses a jump of the vector field by one smallest step.
+
+    No error estimate falls below the tolerance while a step contains a jump. The steps shrink to `smallest`, which
+    is of the order of rounding error of the time: that step is taken whatever its estimate, as long as it is finite.
+    The error it makes is the jump times `smallest`. A state that stops being finite, or `FORCED_STEPS` forced steps
+    in a row, end the solve with `dt_min_reached`.
+
+    Coefficients of the PI control: Hairer & Wanner, *Solving Ordinary Differential Equations II*, IV.2, as in diffrax.
+
+    Args:
+        rtol: relative tolerance.
+        atol: absolute tolerance, one number or one for each variable.
+        smallest: smallest step [s].
+    """
+
+    rtol: Any
+    atol: Any
+    smallest: Any
+    norm: Callable[[Any], Any] = eqx.field(static=True, default=largest)
+
+    @property
+    def _inner(self) -> diffrax.PIDController:
+        return diffrax.PIDController(rtol=self.rtol, atol=self.atol, norm=self.norm, pcoeff=0.4, icoeff=0.3)
+
+    def wrap(self, direction: Any) -> ErrorControl:
+        """diffrax integrates backwards by running its own time forwards: nothing depends on the direction."""
+        del direction
+        return self
+
+    def init(
+        self, terms: Any, t0: Any, t1: Any, y0: Any, dt0: Any, args: Any, func: Any, error_order: Any
+    ) -> tuple[Any, Any]:
+        """First end point and state of the control; see `diffrax.AbstractStepSizeController.init`."""
+        end, state = self._inner.init(terms, t0, t1, y0, dt0, args, func, error_order)
+        return end, (state, jnp.asarray(0))
+
+    def adapt_step_size(
+        self, t0: Any, t1: Any, y0: Any, y1_candidate: Any, args: Any, y_error: Any, error_order: Any,
+        controller_state: Any,
+    ) -> tuple[Any, Any, Any, Any, Any, RESULTS]:  # fmt: skip
+        """Whether to keep the step, and the next; see `diffrax.AbstractStepSizeController.adapt_step_size`."""
+        inner, forced = controller_state
+        kept, next_t0, next_t1, jump, inner, result = self._inner.adapt_step_size(
+            t0, t1, y0, y1_candidate, args, y_error, error_order, inner
+        )
+        leaves = [*jax.tree.leaves(y1_candidate), *jax.tree.leaves(y_error)]
+        finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(leaf)) for leaf in leaves]))
+        at_floor = t1 - t0 <= self.smallest
+        force = at_floor & ~kept & finite
+        forced = jnp.where(force, forced + 1, jnp.where(kept, 0, forced))
+        next_t0 = jnp.where(force, t1, next_t0)
+        step = jnp.where(force, self.smallest, jnp.maximum(next_t1 - next_t0, self.smallest))
+        failed = (at_floor & ~kept & ~finite) | (forced > FORCED_STEPS)
+        result = RESULTS.where(failed, RESULTS.dt_min_reached, result)
+        return kept | force, next_t0, next_t0 + step, jump, (inner, forced), result
