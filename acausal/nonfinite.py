@@ -62,7 +62,7 @@ def _culprits(family: Family, values: Floats, parameters: Floats, t: float) -> B
         return parameters[family.par_rows[:, node.value]] if node.op == "par" else t
 
     residual = np.broadcast_to(np.asarray(evaluate((family.residual,), leaf, np)[0], float), one.shape)
-    return one & ~np.isfinite(residual)
+    return np.asarray(one & ~np.isfinite(residual))
 
 
 def _given(flat: FlatModel, family: Family, row: int, values: Floats, parameters: Floats) -> str:

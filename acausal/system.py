@@ -231,7 +231,8 @@ class System:
         values = np.concatenate([np.ravel(np.asarray(a)) for a in (x0, w0, left)])
         if np.isfinite(values).all() and (not np.size(left) or float(np.max(np.asarray(left))) <= ACCEPTED):
             return
-        raise InitializationError(explain_initial(self, *map(np.asarray, (x0, w0, p, left)), float(t0)))
+        arrays = np.asarray(x0), np.asarray(w0), np.asarray(p), np.asarray(left)
+        raise InitializationError(explain_initial(self, *arrays, float(t0)))
 
     def diagnose_nonfinite(self, t: Any, x: Any, w: Any, p: Any) -> str | None:
         """Which equation gives NaN or infinity at a point, as text; None if none does. Concrete values only."""

@@ -88,7 +88,8 @@ def from_sympy(root: Any, symbols: Mapping[str, Expr]) -> Expr:
 
     names = {v: k for k, v in _NAMES.items() if v}
     done: dict[Any, Expr] = {}
-    for node in sympy.postorder_traversal(root):
+    nodes: Any = sympy.postorder_traversal(root)
+    for node in nodes:
         if node in done:
             continue
         if node.is_Number or node.is_NumberSymbol:
