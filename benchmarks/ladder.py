@@ -54,29 +54,40 @@ def beside_peers(chosen: argparse.Namespace) -> None:
         if ours is None:
             raise SystemExit(f"the ladder of {cells} cells failed: {problem}")
         ours_total = ours["instantiate"] + ours["translate"] + ours["first"]
-        rows.append(_row(cells, "acausal", ours_total - ours["run"], ours["run"], ours["error"], ours_total))
+        rows.append(
+            _row(cells, "acausal", ours_total - ours["run"], ours["run"], ours["error"], ours_total, ours["cpu"])
+        )
         for peer in PEERS:
             python = chosen.peer_python.get(peer, sys.executable)
             found, problem = child(["benchmarks.peers.run", peer, "--cells", str(cells)], chosen.peer_timeout, python)
             if found is None or "missing" in found:
                 why = problem if found is None else "not installed"
-                rows.append((f"{cells:,}", peer, "", "", why[:60], "", ""))
+                rows.append((f"{cells:,}", peer, "", "", why[:60], "", "", ""))
                 continue
             label = f"{peer} {found['version']} ({found['configuration']})"
-            rows.append(_row(cells, label, found["compile"], found["solve"], found["error"], ours_total))
+            rows.append(_row(cells, label, found["compile"], found["solve"], found["error"], ours_total, found["cpu"]))
     text = (
         "The ladder of the section above, for the others as Modelica text with the same classes and connections. All "
         "give 101 points at rtol 1e-6 and atol 1e-9. *Ratio* is the tool's total divided by ours. Each row is a new "
         "process; imports are not counted."
     )
-    header = ("cells", "tool", "compile", "solve", "total", "error", "ratio")
+    header = ("cells", "tool", "compile", "solve", "total", "ratio", "CPU seconds", "error")
     command = "python -m benchmarks.ladder --peers"
     write(Section("ladder-peers", "RC ladder beside other tools", command, text, header, rows))
 
 
-def _row(cells: int, tool: str, compiling: float, solving: float, error: float, ours: float) -> tuple[str, ...]:
+def _row(
+    cells: int, tool: str, compiling: float, solving: float, error: float, ours: float, cpu: float
+) -> tuple[str, ...]:
     total = compiling + solving
-    numbers = (seconds(compiling), seconds(solving), seconds(total), f"{error:.1e}", f"{total / ours:.3g}")
+    numbers = (
+        seconds(compiling),
+        seconds(solving),
+        seconds(total),
+        f"{total / ours:.3g}",
+        seconds(cpu),
+        f"{error:.1e}",
+    )
     return (f"{cells:,}", tool, *numbers)
 
 
