@@ -55,14 +55,16 @@ class Elaborator:
         """Template and numbers of one component, `step` below the component on top of the stack."""
         cls = type(component)
         mods = component.__dict__["_mods"]
-        if not cls._children and cls in self.plain and _numeric(mods):
-            template, attributes = self.plain[cls]
-            if not mods:
-                return template, attributes
+        if mods and not cls._partial and _plain(cls, mods):
+            template, attributes = self.elaborate(_bare(cls), step)
             attributes = attributes.copy()
+            self.stack.append(Frame(cls, step))
             for name, value in mods.items():
                 self._set(cls, template, attributes, name, value)
+            self.stack.pop()
             return template, attributes
+        if not mods and cls in self.plain:
+            return self.plain[cls]
         if cls._partial and (cls._declarations or not issubclass(cls, Connector)):
             raise DeclarationError(
                 f"`{self._where(step) or cls.__name__}` is an instance of the partial class `{cls.__name__}` "
@@ -73,7 +75,7 @@ class Elaborator:
             template, attributes = self._elaborate(component)
         finally:
             self.stack.pop()
-        if not cls._children and not mods and not template.bindings:
+        if not mods:
             self.plain[cls] = (template, attributes)
         return template, attributes
 
@@ -226,11 +228,24 @@ def _partial_outer(child: Component) -> tuple[Template, None]:
     return template, None
 
 
-def _numeric(mods: dict[str, Any]) -> bool:
-    return all(
-        isinstance(v, (int, float)) or (isinstance(v, Start) and not isinstance(v.value, (Bound, Expr, Declaration)))
-        for v in mods.values()
-    )
+def _plain(cls: type[Component], mods: dict[str, Any]) -> bool:
+    """Whether modifications are numbers for own quantities that no expression gives: the template stays the same."""
+    for name, value in mods.items():
+        declaration = cls._declarations.get(name)
+        if declaration is None or isinstance(declaration.default, (Expr, Declaration)):
+            return False
+        if isinstance(value, Start):
+            if isinstance(declaration.start, (Expr, Declaration)) or isinstance(value.value, (Bound, Expr, Declaration, list)):
+                return False
+        elif not isinstance(value, (int, float)):
+            return False
+    return True
+
+
+def _bare(cls: type[Component]) -> Component:
+    bare = object.__new__(cls)
+    bare.__dict__["_mods"], bare.__dict__["_path"] = {}, ()
+    return bare
 
 
 def _key(template: Template) -> Any:

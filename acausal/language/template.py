@@ -181,8 +181,9 @@ class Template:
                 index = path[i] if i < len(path) else range(slot.count)
                 i += 1
             template, v, p = _element(slot, index)
-            offset = np.add.outer(offset, v)
-            par_offset = np.add.outer(par_offset, p)
+            plain = isinstance(v, int)
+            offset = offset + v if plain else np.add.outer(offset, v)
+            par_offset = par_offset + p if plain else np.add.outer(par_offset, p)
         return Reference(offset, par_offset, None, template, outer, inside)
 
     def leaf_names(self, is_par: bool) -> Iterator[tuple[Path, int]]:
@@ -203,18 +204,18 @@ class Template:
                         yield (*head, *tail), base + k * stride + offset
 
 
-def _element(slot: ChildSlot, index: Any) -> tuple[Template, Ints, Ints]:
+def _element(slot: ChildSlot, index: Any) -> tuple[Template, Any, Any]:
     """Template and offsets of the elements of `slot` chosen by `index` (None, an int or a range)."""
     if index is None:
-        return slot.templates[0], np.asarray(slot.var_offsets[0]), np.asarray(slot.par_offsets[0])
+        return slot.templates[0], slot.var_offsets[0], slot.par_offsets[0]
     if isinstance(index, str):
         raise DeclarationError(f"`{slot.name}` is an array of components: take an element, `{slot.name}[0].{index}`")
     if slot.uniform:
         template = slot.templates[0]
-        k = np.asarray(index, np.int64)
+        k = index if isinstance(index, int) else np.asarray(index, np.int64)
         return template, slot.var_offsets[0] + k * template.var_count, slot.par_offsets[0] + k * template.par_count
     if isinstance(index, int):
-        return slot.templates[index], np.asarray(slot.var_offsets[index]), np.asarray(slot.par_offsets[index])
+        return slot.templates[index], slot.var_offsets[index], slot.par_offsets[index]
     chosen = [slot.templates[i] for i in index]
     if any(t.own.keys() != chosen[0].own.keys() for t in chosen):
         raise DeclarationError(f"a slice of `{slot.name}` mixes different classes; index its elements one by one")
