@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from functools import cache
+
+import numpy as np
+
+import acausal as ac
 from acausal import Array, Component, Equations, Parameter, connect, inner, start
 from acausal.components import blocks, electrical, hydraulic, planar, rotational, thermal, translational
 from models.kbc import reference_crane
@@ -483,3 +488,12 @@ CRANES: dict[str, Component] = {
     for hydraulics in ("simplified", "extended")
     for joint in ("compliant", "rigid")
 }
+
+
+TIMES = np.linspace(0.0, 1.0, 51)
+
+
+@cache
+def simulated(name: str) -> ac.Solution:
+    """The first second of an example at `TIMES`; run once for all tests."""
+    return ac.compile(EXAMPLES[name]).simulate(t1=1.0, saveat=TIMES, rtol=1e-9)
