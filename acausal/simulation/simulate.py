@@ -233,6 +233,8 @@ def _solve(
     """The solve: times, states, tearing variables, counts, result code, last point, and kept factors."""
     settings = eqx.combine(dynamic, static)
     n_x, n_w, _ = dimensions(lowered)
+    if not n_x:
+        return _without_states(lowered, settings, t0, t1, w0, p, points)
     x_nominal, w_nominal = jnp.asarray(lowered.x_nominal, float), jnp.asarray(lowered.w_nominal, float)
     together = isinstance(settings.solver, Rodas5P)
     if isinstance(settings.solver, Rodas5P):
@@ -281,6 +283,22 @@ def _solve(
         last = (t_last, y_last, w[-1] if n_w else w0)
     counts = [solved.stats[f"num_{k}"] for k in ("steps", "accepted_steps", "rejected_steps")]
     return t, x, w, counts, _code(solved.result), last, solved.solver_state if keep else None
+
+
+def _without_states(
+    lowered: Lowered, settings: _Settings, t0: Array, t1: Array, w0: Array, p: Array, points: Array | None
+) -> tuple[Any, ...]:
+    """A model without states: its algebraic equations are solved at each output time."""
+    if settings.saveat[0] == "points":
+        points = jnp.linspace(t0, t1, settings.saveat[1])
+    ends = jnp.stack([t0, t1])
+    t = ends if points is None else jnp.concatenate([points, ends[1:]])
+    x = jnp.zeros((t.shape[0], 0))
+    w = _follow(lowered, t, x, w0, p) if lowered.n_w else jnp.zeros((t.shape[0], 0))
+    none = jnp.asarray(0)
+    shown = slice(None) if points is None else slice(None, -1)
+    code = jnp.where(jnp.isfinite(w).all(), 0, -1)
+    return t[shown], x[shown], w[shown], [none, none, none], code, (t1, x[-1], w[-1]), None
 
 
 def _index_one(lowered: Lowered, solver: Rodas5P, x0: Array, w0: Array, p: Array) -> tuple[Any, Any, Array, Any]:
