@@ -95,17 +95,6 @@ def test_pytree(solution):
     assert doubled.system is solution.system
 
 
-def test_gradient_through_observed_variables():
-    system = diode()
-
-    def total(c):
-        return jnp.sum(simulate(system, 1.0, parameters={"c.C": c}, saveat=5, rtol=1e-9, max_steps=500)["i"])
-
-    run = jax.jit(total)
-    difference = float(run(0.5 + 1e-4) - run(0.5 - 1e-4)) / 2e-4
-    assert float(jax.grad(total)(0.5)) == pytest.approx(difference, rel=1e-5)
-
-
 def test_batch_of_solutions():
     system = van_der_pol()
     batch = jax.vmap(lambda m: simulate(system, 1.0, parameters={"mu": m}, saveat=5))(jnp.array([1.0, 2.0]))

@@ -89,7 +89,7 @@ def test_ladder_against_dense():
 
 @needs_klu
 def test_large_ladder_vmap_and_grad():
-    n = 2000
+    n = 500
     solver = SparseKLU(banded(n))
     run = jax.jit(lambda k: solve(jnp.zeros(n), k, solver, 1e-5))
     both = jax.jit(jax.vmap(run))(jnp.array([10.0, 50.0]))
