@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from .errors import InitializationError, UnknownNameError, nearest
+from .errors import InitializationError, UnknownNameError
 from .language.component import Component
 from .language.flat_model import FlatModel
 from .language.template import Ints
@@ -338,12 +338,6 @@ class System:
             latex: as LaTeX.
         """
         return "\n".join(equation_lines(self, form, latex))
-
-    def check_names(self, names: Sequence[str], known: Sequence[str], what: str) -> None:
-        """Raise UnknownNameError if one of `names` is not among `known`."""
-        for name in names:
-            if name not in known:
-                raise UnknownNameError(f"the model has no {what} `{name}`.{nearest(name, known)}")
 
     def __repr__(self) -> str:
         return f"System({self.name}: {self.lowered.n_x} states, {self.lowered.n_w} algebraic unknowns)"

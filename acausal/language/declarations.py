@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import enum
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, Literal, Self, overload
 
@@ -272,5 +271,3 @@ class Structural:
             f"structural parameter `{self.name}` is fixed at construction: `{type(instance).__name__}({self.name}=...)`"
         )
 
-
-Rule = Callable[..., Any]

@@ -54,10 +54,6 @@ class InitialProblem:
     families: list[Family]
     ease: Floats
 
-    @property
-    def trivial(self) -> bool:
-        """Whether the start values of the states are the solution."""
-        return not (len(self.targets) or self.families or self.lowered.n_g)
 
 
 def initial_problem(reduced: Reduced, lowered: Lowered, families: list[Family], with_start: Bools) -> InitialProblem:

@@ -74,10 +74,6 @@ class Lowered:
         ids = np.concatenate([np.zeros(0, np.int64), *(f.var_rows.ravel() for f in self.schedule.invariants)])
         return self.closure(ids, residuals=False)
 
-    @cached_property
-    def _groups_all(self) -> list[int]:
-        return list(range(len(self.schedule.groups)))
-
     # ---- public functions -----------------------------------------------------------------------------------------
     def derivatives(self, t: Any, x: Any, w: Any, p: Any) -> tuple[Any, Any]:
         """Time derivatives of the states (n_x,) and residuals of the iterated equations (n_w,)."""
@@ -332,8 +328,10 @@ class _Emitter:
             self.env.put(group.var_rows[:, u], value)
         return residuals
 
-    def kernel(self, kernel: Kernel, columns: dict[int, Any], parameters: list[Any], n: int) -> tuple[dict[int, Any], Any]:
-        """Unknowns of `n` blocks with one kernel (columns by slot), and the residuals of an iterating one (n, tears)."""
+    def kernel(
+        self, kernel: Kernel, columns: dict[int, Any], parameters: list[Any], n: int
+    ) -> tuple[dict[int, Any], Any]:
+        """Unknowns of `n` blocks with one kernel, and the residuals of an iterating one (n, tears)."""
         jnp = self.jnp
         values = dict(columns)
 

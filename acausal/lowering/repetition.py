@@ -1,7 +1,7 @@
 """Long chains of equal blocks, each needing the one before: emitted as one loop instead of one copy per link.
 
-Levels of the schedule that repeat (the same kernels on as many rows) become a `lax.scan` whose carry holds all values of
-the chain; without it the traced program would grow with the length of the chain.
+Levels of the schedule that repeat (the same kernels on as many rows) become a `lax.scan` whose carry holds all values
+of the chain; without it the traced program would grow with the length of the chain.
 """
 
 from __future__ import annotations
@@ -66,8 +66,8 @@ def plan(groups: list[Group]) -> list[Group | Repetition]:
     while i < len(levels):
         period, count = _run_at(signatures, i, levels)
         if count >= SHORTEST:
-            folded = [[g for level in levels[a : a + period] for g in level] for a in range(i, i + period * count, period)]
-            out.append(Repetition(folded))
+            starts = range(i, i + period * count, period)
+            out.append(Repetition([[g for level in levels[a : a + period] for g in level] for a in starts]))
             i += period * count
         else:
             out.extend(levels[i])

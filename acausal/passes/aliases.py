@@ -52,11 +52,6 @@ class Reduced:
     unknown: Bools
     redundant: list[Redundant]
 
-    @property
-    def n_equations(self) -> int:
-        """Number of scalar equations."""
-        return sum(f.size for f in self.families)
-
 
 @dataclass(slots=True)
 class _Edges:
@@ -77,8 +72,8 @@ def eliminate_aliases(flat: FlatModel) -> Reduced:
     """Merge equal variables.
 
     Of several differentiated variables in one set, a component's own (not those of its connectors) stay apart, with the
-    constraint between them as an equation: two masses joined rigidly are a system of index 3, two capacitors in parallel
-    of index 2. Differentiated connector variables are merged, and so are their derivatives.
+    constraint between them as an equation: two masses joined rigidly are a system of index 3, two capacitors in
+    parallel of index 2. Differentiated connector variables are merged, and so are their derivatives.
     """
     edges = _Edges(flat.alias_a, flat.alias_b, flat.alias_sign, flat.alias_source, flat.alias_ordinal)
     edges = edges.extend(flat.zero, flat.zero, np.zeros_like(flat.zero), flat.zero_source, flat.zero_ordinal)
@@ -115,7 +110,7 @@ def _sets(n: int, edges: _Edges, keep: Bools | None, rank: Ints | None) -> tuple
 
 
 def _merge_differentiated(flat: FlatModel, edges: _Edges, keep: Bools, rank: Ints) -> tuple[_Edges, Bools]:
-    """Give up the separate life of differentiated variables that only repeat another; add edges of their derivatives."""
+    """Give up the separate life of differentiated variables that repeat another; add edges of their derivatives."""
     base = np.flatnonzero((flat.derivative_of >= 0) & keep & (flat.parent < 0))
     if not len(base):
         return edges, keep

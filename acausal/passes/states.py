@@ -3,8 +3,8 @@
 Static dummy derivatives (Mattsson and Söderlind 1993) where the pivots are constants: every differentiated equation is
 solved for a variable that then is no state. Where every choice of pivots can go singular over the motion (a pendulum in
 Cartesian coordinates, or a loop of links), all candidates stay states and the equation stays as an *invariant* onto
-which the solution is projected after every step (Eich 1993, "Convergence results for a coordinate projection method"; Hairer and Wanner 1996,
-VII.2): a choice that changes with the motion, without a switch.
+which the solution is projected after every step (Eich 1993, "Convergence results for a coordinate projection method";
+Hairer and Wanner 1996, VII.2): a choice that changes with the motion, without a switch.
 """
 
 from __future__ import annotations

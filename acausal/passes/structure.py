@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from ..dae.incidence import Incidence
-from ..dae.matching import maximum_matching
 from ..dae.pantelides import StructurallySingular, pantelides, signature_index
 from ..errors import StructureError
 from ..language.flat_model import Bools, Family, FlatModel, canonical
@@ -214,8 +213,8 @@ def differentiate_family(family: Family, derivative_of: Ints, flat: FlatModel) -
         i = int(np.flatnonzero((family.par_rows >= flat.n_par).any(axis=1))[0])
         component, place = flat.equation_place(family, i)
         raise StructureError(
-            f"the index reduction must differentiate `{flat.equation_text(family, i)}` ({component or flat.model_name}, "
-            f"{place}), but the derivative of an input from outside is not known: give the input as a component of the "
+            f"the index reduction must differentiate `{flat.equation_text(family, i)}` "
+            f"({component or flat.model_name}, {place}), but the derivative of an input from outside is not known: give the input as a component of the "
             "model (a source block), or pass its derivative as an input of its own"
         )
 
@@ -226,8 +225,3 @@ def differentiate_family(family: Family, derivative_of: Ints, flat: FlatModel) -
     both = np.concatenate([family.var_rows, derivatives], axis=1)
     form, var_rows, par_rows = canonical(residual, both, family.par_rows)
     return Family(form, var_rows, par_rows, family.source, family.ordinal)
-
-
-def match_all(graph: Incidence) -> Ints:
-    """Maximum matching (column of every row, -1 if unmatched)."""
-    return np.asarray(maximum_matching(graph))

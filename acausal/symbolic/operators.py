@@ -113,4 +113,3 @@ _ROWS: Final = [
 ]  # fmt: skip
 
 OPERATORS: Final[dict[str, Operator]] = {row.name: row for row in _ROWS}
-CONDITIONS: Final = frozenset({"lt", "le", "gt", "ge", "and", "or", "not"})

@@ -104,7 +104,7 @@ def apply(node: Expr, args: list[Any], xp: Any) -> Any:
     """Value of one operator on its operands' values."""
     op = node.op
     if op == "add":
-        return _sum(node, args)
+        return _sum(args)
     if op == "mul":
         return args[0] * args[1]
     if op == "div":
@@ -121,13 +121,9 @@ def apply(node: Expr, args: list[Any], xp: Any) -> Any:
     return getattr(xp, OPERATORS[op].array)(*args)
 
 
-def _sum(node: Expr, args: list[Any]) -> Any:
-    """Left-to-right sum; `-x` terms are subtracted."""
+def _sum(args: list[Any]) -> Any:
+    """Left-to-right sum."""
     result = args[0]
-    for term, value in zip(node.args[1:], args[1:], strict=True):
-        if isinstance(value, float) and value < 0:
-            result = result - (-value)
-        else:
-            result = result + value
-        del term
+    for value in args[1:]:
+        result = result + value
     return result
