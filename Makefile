@@ -9,7 +9,7 @@ endif
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet
 WORKERS ?= 2
 
-.PHONY: demo test slow lint bench clean
+.PHONY: demo test slow lint ruff pyright bench clean
 
 demo: ## a fresh virtual environment, install, simulate the four cranes, draw the figures
 	@echo "Installing into a fresh virtual environment, $(VENV) ..."
@@ -39,8 +39,12 @@ test: $(VENV)/.installed-test ## the tests that are not slow
 slow: $(VENV)/.installed-test ## the slow tests
 	$(BIN)/python -m pytest -m slow $(ARGS)
 
-lint: $(VENV)/.installed-dev ## ruff and pyright
+lint: ruff pyright ## ruff and pyright
+
+ruff: $(VENV)/.installed-dev
 	$(BIN)/python -m ruff check .
+
+pyright: $(VENV)/.installed-dev
 	$(BIN)/python -m pyright --pythonpath $(BIN)/python
 
 bench: $(VENV)/.installed-bench ## every table of benchmarks/RESULTS.md
