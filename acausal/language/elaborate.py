@@ -235,8 +235,9 @@ def _plain(cls: type[Component], mods: dict[str, Any]) -> bool:
         if declaration is None or isinstance(declaration.default, (Expr, Declaration)):
             return False
         if isinstance(value, Start):
-            given = value.value
-            if isinstance(declaration.start, (Expr, Declaration)) or isinstance(given, (Bound, Expr, Declaration, list)):
+            if isinstance(declaration.start, (Expr, Declaration)):
+                return False
+            if isinstance(value.value, (Bound, Expr, Declaration, list)):
                 return False
         elif not isinstance(value, (int, float)):
             return False

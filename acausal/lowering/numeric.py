@@ -180,6 +180,7 @@ def is_concrete(tree: Any) -> bool:
     if "jax" not in sys.modules:
         return True
     import jax
+    import jax.core
     import jax.numpy as jnp
 
     if any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(tree)):

@@ -1,4 +1,4 @@
-"""Chains of equal blocks become loops: the traced program does not grow with their length, values and derivatives hold."""
+"""Chains of equal blocks become loops: the traced program does not grow with them, values and derivatives hold."""
 
 import jax
 import jax.numpy as jnp
