@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.components.hydraulic import PaperFriction
 from models.kbc import PARAMETERS, SIGNALS, Crane, reference_crane
 
 from .reference import Parameters, solve, spread
@@ -132,3 +133,11 @@ def test_variants_are_redeclarations() -> None:
 def test_wrong_arguments_are_named(arguments: dict[str, Any]) -> None:
     with pytest.raises((TypeError, ValueError), match=r"extendet|loose|triangle|boer"):
         reference_crane(**arguments)
+
+
+def test_parts_deep_inside_are_replaceable() -> None:
+    model = ac.redeclare(reference_crane(), {"supply.pipe.friction": PaperFriction()})
+    system = ac.compile(model)
+    assert len(system.states) == 12
+    assert "PaperFriction" in repr(model)
+    assert "PaperFriction" not in repr(reference_crane())
