@@ -51,7 +51,7 @@ def _culprits(family: Family, values: Floats, parameters: Floats, t: float) -> B
     bad = ~np.isfinite(columns)
     some = bad.any(axis=1)
     if not some.any():
-        return some
+        return np.zeros(len(bad), bool)
     first = family.var_rows[np.arange(len(bad)), bad.argmax(axis=1)]
     one = some & (~bad | (family.var_rows == first[:, None])).all(axis=1)
     filled = np.where(bad, 1.0, columns)

@@ -97,6 +97,9 @@ NAMED: Final = tuple("N Pa J W V ohm C F H T K A m kg s mol cd degC bar".split()
 _TOKEN: Final = re.compile(r"\s*(\*\*|[*·./^()]|[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?|[^\W\d]+|[%°]C?)", re.UNICODE)
 
 
+_SUPERSCRIPT: Final = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+
+
 class UnknownUnit(ValueError):
     """A unit string with a name that is not known, or that is not well formed."""
 
@@ -111,13 +114,13 @@ def parse_unit(text: str) -> Unit:
 
     Args:
         text: factors joined by ``.``, ``*`` or ``/``, with exponents as in ``m2``, ``s-1``, ``m^2``, ``m**2``, and
-            parentheses; ``1`` or an empty string is dimensionless.
+            parentheses; ``1``, ``-`` or an empty string is dimensionless.
 
     Raises:
         UnknownUnit: a name that neither the table nor pint knows, or bad syntax.
     """
     tokens: list[str] = []
-    position, stripped = 0, text.strip()
+    position, stripped = 0, text.strip().translate(_SUPERSCRIPT).removeprefix("-")
     while position < len(stripped):
         match = _TOKEN.match(stripped, position)
         if match is None:

@@ -334,8 +334,10 @@ def _conversion(first: Expr, a: Unit | None, second: Expr, b: Unit | None) -> st
         return "add 273.15 to the temperature in degC"
     if a is not None and b is not None and a != b:
         factor = a / b
+        number = "" if a.literal == b.literal == 1.0 else " (a number has no unit: one that has is a Parameter)"
         return (
             f"check the equation: a factor of unit {unit_text(Unit(factor.dimension, factor.scale))} is missing from "
-            f"`{second}`; or correct the `unit=` of a declaration (a quantity declared without unit is not checked)"
+            f"`{second}`{number}; or correct the `unit=` of a declaration (a quantity declared without unit is not "
+            "checked)"
         )
     return "check the equation and the `unit=` of its quantities"

@@ -122,6 +122,14 @@ class Array(Generic[C]):
     """
 
     def __init__(self, element: C, count: int | str, **values: Any) -> None:
+        cls = type(element)
+        for name in values:
+            if name not in field_names(cls):
+                hint = nearest(name, field_names(cls))
+                raise DeclarationError(
+                    f"Array({cls.__name__}(), {count!r}, {name}=...): `{cls.__name__}` has no field `{name}`.{hint} "
+                    f"{call_site()}"
+                )
         self._element = element
         self._count = count
         self._values = values
@@ -241,12 +249,15 @@ def merged(default: Any, given: Any) -> Any:
     if isinstance(default, Shared):
         return Shared(merged(default.component, given.component if isinstance(given, Shared) else given), default.role)
     if isinstance(default, Array) and isinstance(given, Component):
-        changed = Array(merged(default._element, given), default._count, **default._values)
+        known = field_names(type(given))
+        values = {k: v for k, v in default._values.items() if k in known}
+        changed = Array(merged(default._element, given), default._count, **values)
         changed._length = default._length
         return changed
     if isinstance(default, Array) and isinstance(given, Array):
-        count = given._count
-        changed = Array(merged(default._element, given._element), count, **{**default._values, **given._values})
+        known = field_names(type(given._element))
+        values = {k: v for k, v in default._values.items() if k in known}
+        changed = Array(merged(default._element, given._element), given._count, **{**values, **given._values})
         changed._length = given._length
         return changed
     if isinstance(default, Start) and isinstance(given, Start):

@@ -75,6 +75,13 @@ CASES = {
         """,
         ["`r.R` is one parameter but was given 2 values", "Array(component, n, R=[...])"],
     ),
+    "values of an array for a field that is not there": (
+        """
+        class M(Component):
+            r: Array[Resistor] = Array(Resistor(), 2, r=[1.0, 2.0])  # HERE
+        """,
+        ["Array(Resistor(), 2, r=...)", "`Resistor` has no field `r`", "Did you mean `R`"],
+    ),
     "plain float field": (
         """
         class M(Component):  # HERE

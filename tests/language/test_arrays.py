@@ -143,6 +143,15 @@ def test_an_array_of_a_replacement() -> None:
     assert len([k for k in parameters(again) if k.endswith(".R")]) == 2
 
 
+def test_values_of_elements_carry_over_to_a_replacement_that_has_the_field() -> None:
+    class Bank(Component):
+        loads: Array[TwoPin] = Array(Resistor(), 2, R=[1.0, 2.0])
+
+    replaced = ac.redeclare(Bank(), {"loads": Array(Conductor(), 2)})  # type: ignore[dict-item]
+    assert [v for k, v in parameters(replaced).items() if k.endswith(".R")] == [1.0, 2.0]
+    assert list(parameters(Bank(loads=Diode())).values()) == [1e-9, 1e-9]  # type: ignore[arg-type]
+
+
 def test_parameters_of_the_owner_reach_every_element() -> None:
     class Bank(Component):
         R0: Parameter = Parameter(3.0)

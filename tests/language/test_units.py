@@ -136,6 +136,11 @@ def test_equations_whose_units_differ(name: str) -> None:
         assert word in text, text
 
 
+def test_a_number_that_should_have_a_unit_is_named() -> None:
+    with pytest.raises(ac.UnitError, match=r"factor of unit m/s2 is missing.*a number has no unit"):
+        check(one(lambda s: s.F, lambda s: s.m * 9.81)())
+
+
 def test_the_message_shows_both_sides_and_the_declared_units() -> None:
     class Spring(Component):
         s: Variable = Variable(unit="mm")
@@ -261,6 +266,7 @@ SAME = [
     ("N.s/m", "kg/s"), ("kg.m2", "kg*m**2"), ("W/(m2.K)", "W/m2/K"), ("m2/s", "m**2/s"), ("1/s", "Hz"), ("s-1", "1/s"),
     ("N*m/rad", "N.m"), ("m^2", "m2"), ("m**3/s", "m3/s"), ("bar", "100.kPa"), ("l/min", "1e-3.m3/min"),
     ("m**(1/2)", "m**0.5"), ("Ohm", "V/A"), ("", "1"), ("µm", "um"), ("K", "kelvin"),
+    ("m³·s⁻¹", "m3/s"), ("-", "1"),
 ]  # fmt: skip
 
 
