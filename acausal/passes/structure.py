@@ -214,8 +214,8 @@ def differentiate_family(family: Family, derivative_of: Ints, flat: FlatModel) -
         component, place = flat.equation_place(family, i)
         raise StructureError(
             f"the index reduction must differentiate `{flat.equation_text(family, i)}` "
-            f"({component or flat.model_name}, {place}), but the derivative of an input from outside is not known: give "
-            "the input as a component of the model (a source block), or pass its derivative as an input of its own"
+            f"({component or flat.model_name}, {place}), but the derivative of an input from outside is not known: "
+            "give the input as a component of the model (a source block), or pass its derivative as an input of its own"
         )
 
     def tangent(leaf: Expr) -> Expr:
