@@ -308,7 +308,7 @@ class System:
             inputs: input name to a number, a function of time written with `jax.numpy`, or a pair (times, values).
             saveat: times of the result, an array or a `diffrax.SaveAt`; by default 501 equidistant points.
             rtol: relative tolerance of the error control.
-            atol: absolute tolerance relative to the nominal values; `rtol` by default.
+            atol: absolute tolerance as a fraction of the nominal values; a tenth of `rtol` by default.
             solver: a diffrax solver; `Rodas5P` by default.
             engine: ``diffrax``, or ``auto``.
             events: whether events are handled.

@@ -12,6 +12,8 @@ import jax.numpy as jnp
 from diffrax import RESULTS, AbstractAdaptiveStepSizeController
 from jax import Array
 
+ROUNDING = 1e-14
+"""Smallest step as a fraction of the time: some tens of the spacing of floating-point numbers."""
 FORCED_STEPS = 50
 """So many steps in a row may be forced; more means that the solution does not leave the discontinuity."""
 
@@ -34,7 +36,8 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
     Args:
         rtol: relative tolerance.
         atol: absolute tolerance, one number or one for each variable.
-        smallest: smallest step [s].
+        smallest: smallest step at the far end of the time axis [s]; elsewhere the smallest step is that fraction of
+            the time, so that a run over 1e11 s can begin with steps of microseconds.
     """
 
     rtol: Any
@@ -69,11 +72,12 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
         )
         leaves = [*jax.tree.leaves(y1_candidate), *jax.tree.leaves(y_error)]
         finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(leaf)) for leaf in leaves]))
-        at_floor = t1 - t0 <= self.smallest
+        floor = jnp.maximum(ROUNDING * jnp.abs(t0), 1e-10 * self.smallest)
+        at_floor = t1 - t0 <= 1.5 * floor
         force = at_floor & ~kept & finite
         forced = jnp.where(force, forced + 1, jnp.where(kept, 0, forced))
         next_t0 = jnp.where(force, t1, next_t0)
-        step = jnp.where(force, self.smallest, jnp.maximum(next_t1 - next_t0, self.smallest))
+        step = jnp.where(force, floor, jnp.maximum(next_t1 - next_t0, floor))
         failed = (at_floor & ~kept & ~finite) | (forced > FORCED_STEPS)
         result = RESULTS.where(failed, RESULTS.dt_min_reached, result)
         return kept | force, next_t0, next_t0 + step, jump, (inner, forced), result

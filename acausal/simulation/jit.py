@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import logging
 import os
 import time
 from collections.abc import Callable
@@ -13,6 +12,8 @@ import jax
 import jax.numpy as jnp
 from jax.core import Tracer
 from jax.extend.core import jaxprs_in_params
+
+from acausal.precision import enable_double_precision
 
 from .cache import cache_of
 
@@ -157,7 +158,4 @@ def ensure_x64() -> None:
             "JAX runs in single precision, and this call is inside a JAX transformation, where that can no longer be "
             'changed. Put `jax.config.update("jax_enable_x64", True)` at the start of the program.'
         )
-    jax.config.update("jax_enable_x64", True)
-    logging.getLogger("acausal").warning(
-        'acausal turned on JAX\'s double precision for this process (`jax.config.update("jax_enable_x64", True)`).'
-    )
+    enable_double_precision()

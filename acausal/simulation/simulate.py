@@ -17,7 +17,7 @@ from jax import Array
 from acausal.errors import SimulationError
 
 from .cache import cache_of
-from .controller import ErrorControl
+from .controller import ROUNDING, ErrorControl
 from .failure import explain
 from .inputs import drive
 from .jit import compiled_for, ensure_x64, inside_jit, is_traced
@@ -31,6 +31,9 @@ from .start import start
 
 POINTS = 501
 """Output points when `saveat` is not given."""
+INVARIANT_SAFETY = 0.1
+"""Factor on the tolerances of systems with retained constraints: their velocities and multipliers, which the error
+control does not see or sees together with the positions, are about a digit less accurate than the positions."""
 MAX_STEPS = 1_000_000
 ATOL = 0.1
 """Default absolute tolerance, as a multiple of `rtol`."""
@@ -232,7 +235,9 @@ def _solve(
 ) -> tuple[Any, ...]:  # fmt: skip
     """The solve: times, states, tearing variables, counts, result code, last point, and kept factors."""
     settings = eqx.combine(dynamic, static)
-    n_x, n_w, _ = dimensions(lowered)
+    n_x, n_w, n_g = dimensions(lowered)
+    if n_g:
+        rtol, atol = INVARIANT_SAFETY * rtol, INVARIANT_SAFETY * atol
     if not n_x:
         return _without_states(lowered, settings, t0, t1, w0, p, points)
     x_nominal, w_nominal = jnp.asarray(lowered.x_nominal, float), jnp.asarray(lowered.w_nominal, float)
@@ -246,7 +251,7 @@ def _solve(
     adaptive = isinstance(settings.solver, diffrax.AbstractAdaptiveSolver)
     controller = settings.controller
     if controller is None and adaptive:
-        smallest = 1e-14 * jnp.maximum(jnp.maximum(jnp.abs(t0), jnp.abs(t1)), jnp.abs(t1 - t0))
+        smallest = ROUNDING * jnp.maximum(jnp.maximum(jnp.abs(t0), jnp.abs(t1)), jnp.abs(t1 - t0))
         controller = ErrorControl(rtol=rtol, atol=scale, smallest=smallest)
     elif controller is None:
         controller = diffrax.ConstantStepSize()

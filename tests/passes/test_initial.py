@@ -77,7 +77,7 @@ def test_inconsistent_fixed_starts_are_named() -> None:
     model = Pendulum(x=ac.start(1.0, fixed=True), y=ac.start(0.01, fixed=True))
     with pytest.raises(InitializationError, match=r"x\*\*2 \+ y\*\*2") as info:
         started(model)
-    assert "Held exactly: x, y" in str(info.value)
+    assert "Held exactly (fixed start values): x = 1, y = 0.01" in str(info.value)
 
 
 def test_initial_keyword_is_a_condition() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import subprocess
 import sys
 
@@ -62,7 +63,8 @@ def test_x64_is_turned_on_with_one_line():
         "from acausal.simulation.jit import ensure_x64\n"
         "ensure_x64(); ensure_x64(); print(jax.numpy.zeros(1).dtype)"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    env = {k: v for k, v in os.environ.items() if k != "JAX_ENABLE_X64"}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=env)
     assert done.stdout.strip() == "float64"
     assert done.stderr.count("double precision") == 1
     assert logging.getLogger("acausal")
