@@ -190,12 +190,16 @@ class Elaborator:
 
     def _array(self, component: Component, name: str, child: Array[Any]) -> tuple[ChildSlot, list[Attributes]]:
         n = len(child) if child._length is not None else len(effective_child(component, name))
-        varying = {k: v for k, v in child._values.items()}
-        element = child._element
-        if varying or _has_sequence(element):
-            return self._list(name, [_element_mods(element, varying, i, n, name) for i in range(n)], "")
+        element, columns = _columns(child, n, name)
+        if _has_sequence(element) or (columns and not n):
+            return self._list(name, [_element_mods(child._element, child._values, i, n, name) for i in range(n)], "")
         template, attributes = self.elaborate(element, (name, range(n)))
-        return ChildSlot(name, [template], n, ""), [attributes.tile(n)]
+        attributes = attributes.tile(n)
+        for field_name, values in columns.items():
+            is_par, k = template.own[field_name]
+            stride = template.par_count if is_par else template.var_count
+            (attributes.par if is_par else attributes.start)[k::stride] = values
+        return ChildSlot(name, [template], n, ""), [attributes]
 
     def _list(self, name: str, items: list[Component], role: str) -> tuple[ChildSlot, list[Attributes]]:
         nodes = [self.elaborate(item, (name, i)) for i, item in enumerate(items)]
@@ -320,12 +324,35 @@ def _reject_unresolved(component: Any, path: Path) -> None:
         _reject_unresolved(value, (*path, name))
 
 
+def _columns(child: Array[Any], n: int, name: str) -> tuple[Component, dict[str, Any]]:
+    """The first element of an array, and the values of all elements for its own quantities that vary."""
+    from .component import with_modifications
+
+    element = child._element
+    given = {**element.__dict__["_mods"], **child._values}
+    columns: dict[str, Any] = {}
+    first: dict[str, Any] = {}
+    for key, value in given.items():
+        number: Any = value.value if isinstance(value, Start) else value
+        number = number.tolist() if hasattr(number, "tolist") else number
+        varies = isinstance(number, (list, tuple)) and key in type(element)._declarations and n > 0
+        if varies:
+            checked = with_modifications(element, {key: list(number)}).__dict__["_mods"][key]
+            columns[key] = checked.value if isinstance(checked, Start) else checked
+            head = _pick(number, 0, n, f"{name}.{key}")
+            start = isinstance(value, Start)
+            first[key] = Start(head, value.fixed, value.nominal, value.state_select) if start else head
+        elif key in child._values:
+            first[key] = value
+    return (with_modifications(element, first) if first else element), columns
+
+
 def _has_sequence(component: Any) -> bool:
     if not isinstance(component, Component):
         return False
     for value in component.__dict__["_mods"].values():
         inner = value.value if isinstance(value, Start) else value
-        if isinstance(inner, list) and not any(isinstance(v, Component) for v in inner):
+        if isinstance(inner, list) and not isinstance(next(iter(inner), None), Component):
             return True
         if _has_sequence(value):
             return True
@@ -350,7 +377,7 @@ def _pick(value: Any, i: int, n: int, text: str) -> Any:
         return Start(_pick(value.value, i, n, text), value.fixed, value.nominal, value.state_select)
     if hasattr(value, "tolist"):
         value = value.tolist()
-    if isinstance(value, (list, tuple)) and not any(isinstance(v, Component) for v in value):
+    if isinstance(value, (list, tuple)) and not isinstance(next(iter(value), None), Component):
         if len(value) != n:
             raise DeclarationError(f"component array `{text}` has {n} elements but was given {len(value)} values")
         return value[i]
