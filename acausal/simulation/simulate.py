@@ -116,23 +116,27 @@ def simulate(
     n_x, _, _ = dimensions(lowered)
     method = _with_linear_solver(Rodas5P() if solver is None else solver, lowered)
     points, kind = _output(saveat, t0, t1)
+    relative = jnp.asarray(rtol, float)
+    absolute = jnp.broadcast_to(ATOL * relative if atol is None else jnp.asarray(atol, float), (n_x,))
+    first = jnp.asarray(0.0 if dt is None else dt, float)
+    arguments = (jnp.asarray(t0, float), jnp.asarray(t1, float), x0, w0, p, relative, absolute, points, first)
+    traced = inside_jit() or is_traced(arguments)
+    if adjoint is None:
+        # nobody differentiates a run with plain numbers: without checkpoints it compiles faster
+        plain = not traced and isinstance(method, Rodas5P)
+        adjoint = diffrax.ForwardMode() if plain else diffrax.RecursiveCheckpointAdjoint()
     settings = _Settings(
         solver=method,
         saveat=kind,
         controller=stepsize_controller,
         has_dt=dt is not None,
-        adjoint=diffrax.RecursiveCheckpointAdjoint() if adjoint is None else adjoint,
+        adjoint=adjoint,
         event=None if isinstance(events, bool) or events is None else events,
         max_steps=MAX_STEPS if max_steps is None else max_steps,
         progress=False,
         throw=False,
     )
-    relative = jnp.asarray(rtol, float)
-    absolute = jnp.broadcast_to(ATOL * relative if atol is None else jnp.asarray(atol, float), (n_x,))
-    first = jnp.asarray(0.0 if dt is None else dt, float)
-    arguments = (jnp.asarray(t0, float), jnp.asarray(t1, float), x0, w0, p, relative, absolute, points, first)
-
-    if inside_jit() or is_traced(arguments):
+    if traced:
         run, dynamic, _ = _program(lowered, settings.replace(throw=throw))
         t, x, w, counts, *_ = run(dynamic, *arguments)
         return Solution(system, t, x, w, p, stats={**_named(counts, method), "solver": _name(method)}, lowered=lowered)
