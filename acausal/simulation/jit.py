@@ -24,7 +24,12 @@ Measured on the extended crane: with fusion (in the older emitters) its solve, 2
 the time that it takes without and runs four times faster; its gradient, 13,000 equations, in 0.6 of the time and six
 times faster. A random graph, where everything shares with everything, has the break-even of compile time at 2,500."""
 
-_FUSED = ({"xla_cpu_use_fusion_emitters": False}, {})
+# the lower optimization level of LLVM: a quarter less compile time at the same speed (ladder and crane)
+_FUSED = (
+    {"xla_cpu_use_fusion_emitters": False, "xla_backend_optimization_level": 1},
+    {"xla_cpu_use_fusion_emitters": False},
+    {},
+)
 _UNFUSED = ({"xla_disable_hlo_passes": "fusion"}, {"xla_cpu_use_fusion_emitters": False}, {})
 
 
