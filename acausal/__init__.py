@@ -65,6 +65,14 @@ from .language.functions import where as where
 from .symbolic.expr import Expr as Expr
 
 if TYPE_CHECKING:
+    from .analysis.ensemble import Ensemble as Ensemble
+    from .analysis.priors import Bounds as Bounds
+    from .analysis.priors import CalibrationError as CalibrationError
+    from .analysis.priors import LogBounds as LogBounds
+    from .analysis.priors import LogNormal as LogNormal
+    from .analysis.priors import Normal as Normal
+    from .analysis.sampling import grid as grid
+    from .analysis.sampling import sample as sample
     from .compiler import compile as compile
     from .simulation.jit import jit as jit
     from .simulation.rk4 import RK4 as RK4
@@ -74,6 +82,14 @@ if TYPE_CHECKING:
     from .system import System as System
 
 _LAZY = {
+    "Ensemble": "analysis.ensemble",
+    "Bounds": "analysis.priors",
+    "CalibrationError": "analysis.priors",
+    "LogBounds": "analysis.priors",
+    "LogNormal": "analysis.priors",
+    "Normal": "analysis.priors",
+    "grid": "analysis.sampling",
+    "sample": "analysis.sampling",
     "compile": "compiler",
     "System": "system",
     "Report": "system",

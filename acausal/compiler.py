@@ -91,7 +91,9 @@ def compile(
         with_start[assignment.targets] = True
     problem = initial_problem(reduced, lowered, initial, with_start)
     stages = Stages(flat, reduced, low_index, schedule, counts, clock.seconds)
-    return System(stages, program, lowered, problem, tuple(outputs))
+    system = System(stages, program, lowered, problem, tuple(outputs))
+    system.made_from = (model, tuple(inputs), tuple(outputs))
+    return system
 
 
 def _declared(flat: FlatModel) -> int:

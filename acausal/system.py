@@ -29,6 +29,7 @@ from .symbolic.expr import Expr
 from .symbolic.printing import path_text
 
 if TYPE_CHECKING:
+    from .analysis.ensemble import Ensemble
     from .analysis.linearize import StateSpace
     from .simulation.solution import Solution
 
@@ -52,6 +53,7 @@ class System:
         stages: the records of the compilation.
         lowered: the equations as pure JAX functions.
         outputs: names given to `compile`.
+        made_from: model, inputs and outputs that were compiled; a pickled system is compiled again from them.
     """
 
     def __init__(
@@ -67,6 +69,7 @@ class System:
         self.lowered = lowered
         self.initial = initial
         self.outputs = outputs
+        self.made_from: tuple[Component, tuple[str, ...], tuple[str, ...]] | None = None
         self.cache: dict[Any, Any] = {}
         lowered.attach(self.observed_ids)
         enable_double_precision()
@@ -324,6 +327,12 @@ class System:
             solver=solver, engine=engine, events=events, **options,
         )  # fmt: skip
 
+    def ensemble(self, parameters: Any, t1: float, **options: Any) -> Ensemble:
+        """Simulate once for each row of a table of parameters; see `acausal.analysis.ensemble.ensemble`."""
+        from .analysis.ensemble import ensemble
+
+        return ensemble(self, parameters, t1, **options)
+
     # ---- inspection -----------------------------------------------------------------------------------------------
     def report(self) -> Report:
         """Counts at each stage, structural index, blocks, torn variables, families, seconds; prints as a table."""
@@ -339,8 +348,20 @@ class System:
         """
         return "\n".join(equation_lines(self, form, latex))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self.made_from is None:
+            raise TypeError(f"this System of `{self.name}` was not made by `acausal.compile` and cannot be pickled")
+        return _compile_again, self.made_from
+
     def __repr__(self) -> str:
         return f"System({self.name}: {self.lowered.n_x} states, {self.lowered.n_w} algebraic unknowns)"
+
+
+def _compile_again(model: Component, inputs: tuple[str, ...], outputs: tuple[str, ...]) -> System:
+    """A pickled system in its new process."""
+    from .compiler import compile
+
+    return compile(model, inputs=inputs, outputs=outputs)
 
 
 __all__ = ["Component", "Report", "Stages", "System"]

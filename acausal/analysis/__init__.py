@@ -1,1 +1,1 @@
-"""Analysis of compiled systems: linearization and steady states."""
+"""Analysis of compiled systems: linearization, steady states, calibration, ensembles."""
