@@ -297,7 +297,7 @@ class System:
         rtol: float = 1e-6,
         atol: Any = None,
         solver: Any = None,
-        engine: Literal["auto", "diffrax"] = "auto",
+        engine: Literal["auto", "diffrax", "native"] = "auto",
         events: bool = True,
         **options: Any,
     ) -> Solution:
@@ -313,14 +313,14 @@ class System:
             rtol: relative tolerance of the error control.
             atol: absolute tolerance as a fraction of the nominal values; a tenth of `rtol` by default.
             solver: a diffrax solver; `Rodas5P` by default.
-            engine: ``diffrax``, or ``auto``.
+            engine: ``native`` (generated C), ``diffrax``, or ``auto``: native where it can do what is asked.
             events: whether events are handled.
             **options: see `acausal.simulation.simulate.simulate`.
 
         Raises:
             UnknownNameError, InitializationError, SimulationError: see the message.
         """
-        from .simulation.simulate import simulate
+        from .simulation.engines import simulate
 
         return simulate(
             self, t1, t0=t0, parameters=parameters, initial=initial, inputs=inputs, saveat=saveat, rtol=rtol, atol=atol,

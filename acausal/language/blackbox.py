@@ -77,11 +77,33 @@ def table(x: Sequence[float], y: Sequence[float], *, name: str = "table") -> Bla
         raise ValueError(f"table needs as many y as x and at least two points, got {len(x)} and {len(y)}")
     if any(not b > a for a, b in itertools.pairwise(x)):
         raise ValueError("table: x must increase strictly")
-    xs, ys = tuple(map(float, x)), tuple(map(float, y))
+    return Table(tuple(map(float, x)), tuple(map(float, y)), name)
 
-    def interpolate(value: Any) -> Any:
-        import jax.numpy as jnp
 
-        return jnp.interp(value, jnp.asarray(xs), jnp.asarray(ys))
+class Table(BlackBox):
+    """Piecewise linear interpolation between points (x, y), constant outside; its derivative is a step function."""
 
-    return BlackBox(interpolate, name)
+    def __init__(self, x: tuple[float, ...], y: tuple[float, ...], name: str, order: tuple[int, ...] = ()) -> None:
+        def interpolate(value: Any) -> Any:
+            import jax.numpy as jnp
+
+            return jnp.interp(value, jnp.asarray(x), jnp.asarray(y))
+
+        def slope(value: Any) -> Any:
+            import jax.numpy as jnp
+
+            xs, ys = jnp.asarray(x), jnp.asarray(y)
+            slopes = jnp.concatenate([jnp.zeros(1), jnp.diff(ys) / jnp.diff(xs), jnp.zeros(1)])
+            return slopes[jnp.searchsorted(xs, value, side="right")]
+
+        def flat(value: Any) -> Any:
+            return 0.0 * value
+
+        super().__init__((interpolate, slope, flat)[min(len(order), 2)], name, order)
+        self.x, self.y = x, y
+
+    def partial(self, index: int, args: tuple[Expr, ...]) -> Expr:
+        """Derivative, as an expression."""
+        if index not in self._partials:
+            self._partials[index] = Table(self.x, self.y, f"∂{self.name}", (*self.order, index))
+        return intern_node("call", args, self._partials[index])

@@ -35,8 +35,9 @@ Function = Callable[[Floats], tuple[Floats, Any]]
 
 
 def solve_numeric(
-    problem: InitialProblem, t0: float, p: Floats, starts: Floats, overrides: Mapping[int, float]
-) -> tuple[Floats, Floats, Floats] | None:
+    problem: InitialProblem, t0: float, p: Floats, starts: Floats, overrides: Mapping[int, float],
+    compiled: Function | None = None,
+) -> tuple[Floats, Floats, Floats] | None:  # fmt: skip
     """Consistent (x0, w0) and the relative residuals of the conditions, or None if the problem is too large for this.
 
     Args:
@@ -45,6 +46,8 @@ def solve_numeric(
         p: all parameters (n_p,).
         starts: start values of all variables (nan where not given).
         overrides: reduced variable index to value: further fixed starts.
+        compiled: the conditions with their Jacobian as compiled code, where there is some: algebraic equations,
+            invariants, values of `problem.targets`, initial equations.
     """
     low = problem.lowered
     given = given_starts(problem, starts, dict(overrides), np)
@@ -52,7 +55,10 @@ def solve_numeric(
         if not low.n_w:
             return given.x, given.w, np.zeros(0)
         given.fixed[:] = True
-    function = _function(problem, t0, p, given.ids, given.wanted)
+    if compiled is None:
+        function = _function(problem, t0, p, given.ids, given.wanted)
+    else:
+        function = _compiled(compiled, low.n_w + low.n_g, given.wanted), np.ones(low.n_x, bool)
     if function is None:
         return None
     evaluate, may_move = function
@@ -111,6 +117,17 @@ def _function(
         return value, sparse.csr_array((data, pattern.indices, pattern.indptr), pattern.shape)
 
     return compressed, connected(pattern, np.arange(pattern.shape[0]) >= low.n_w)[:n_x]
+
+
+def _compiled(conditions: Function, first: int, wanted: Floats) -> Function:
+    """Conditions of which those from number `first` on are to have the values `wanted`."""
+
+    def function(z: Floats) -> tuple[Floats, Any]:
+        value, slope = conditions(z)
+        value[first : first + len(wanted)] -= wanted
+        return value, slope
+
+    return function
 
 
 def _in_order(problem: InitialProblem, ids: Ints) -> Any:

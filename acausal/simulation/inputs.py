@@ -47,8 +47,9 @@ class DrivenLowered:
     def solve_algebraic(self, t: Any, x: Array, w_guess: Array, p: Any) -> Array:
         return self.lowered.solve_algebraic(t, x, w_guess, self.at(t, p))
 
-    def observe(self, t: Any, x: Array, w: Array, p: Any) -> Array:
-        return self.lowered.observe(t, x, w, self.at(t, p))
+    def observe(self, t: Any, x: Array, w: Array, p: Any, ids: Any = None) -> Array:
+        vector = self.at(t, p)
+        return self.lowered.observe(t, x, w, vector) if ids is None else self.lowered.observe(t, x, w, vector, ids)  # pyright: ignore[reportCallIssue]
 
     def sparsity(self) -> Any:
         return self.lowered.sparsity()

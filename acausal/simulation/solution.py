@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,8 +13,10 @@ import numpy as np
 from jax.core import Tracer
 
 from acausal.errors import UnknownNameError, nearest
+from acausal.lowering.lowered import Lowered as CompiledSystem
 
 from .cache import ById, cache_of
+from .inputs import DrivenLowered
 from .jit import jit
 from .lowered import Lowered
 
@@ -56,6 +58,7 @@ class Solution:
         result: str = "successful",
         events: tuple[Any, ...] = (),
         lowered: Lowered | None = None,
+        observe: Callable[[Any, Any], Any] | None = None,
     ) -> None:
         self.system = system
         self.t, self.x, self.w, self.p = t, x, w, p
@@ -63,6 +66,7 @@ class Solution:
         self.result = result
         self.events = events
         self.lowered: Lowered = system.lowered if lowered is None else lowered
+        self._observe = observe
         self._all: Any = None
 
     def tree_flatten(self) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
@@ -70,16 +74,17 @@ class Solution:
         numbers = {k: v for k, v in self.stats.items() if isinstance(v, jax.Array)}
         fixed = tuple((k, v) for k, v in self.stats.items() if k not in numbers and k not in _RUN_ONLY)
         children = (self.t, self.x, self.w, self.p, numbers, self.events)
-        return children, (ById(self.system), fixed, self.result, ById(self.lowered))
+        return children, (ById(self.system), fixed, self.result, ById(self.lowered), ById(self._observe))
 
     @classmethod
     def tree_unflatten(cls, aux: tuple[Any, ...], children: tuple[Any, ...]) -> Solution:
-        system, fixed, result, lowered = aux
+        system, fixed, result, lowered, observe = aux
         t, x, w, p, numbers, events = children
         made = object.__new__(cls)
         made.system, made.lowered, made.result, made.events = system.thing, lowered.thing, result, events
         made.t, made.x, made.w, made.p = t, x, w, p
         made.stats = {**dict(fixed), **numbers}
+        made._observe = observe.thing
         made._all = None
         return made
 
@@ -128,13 +133,26 @@ class Solution:
                 raise ValueError(
                     "Take a single solution out of a batch first: `jax.tree.map(lambda a: a[0], solution)`."
                 )
-            return _observe(self.lowered, jnp.asarray(indices), self.t, self.x, self.w, self.p)
+            return self._traced_values(indices)
+        if self._observe is not None:
+            if self._all is None:
+                self._all = self._observe(self.t, np.concatenate([self.x, self.w], axis=1))
+            return self._all[:, indices]
         if self._all is None and self._size <= KEEP_ALL:
             everything = jnp.arange(self._n_all)
             self._all = np.asarray(_observe(self.lowered, everything, self.t, self.x, self.w, self.p))
         if self._all is not None:
             return self._all[:, indices]
         return _observe(self.lowered, jnp.asarray(indices), self.t, self.x, self.w, self.p)
+
+    def _traced_values(self, indices: Any) -> Any:
+        """Only what these variables need is traced."""
+        ids, shape = np.ravel(np.asarray(indices)), np.shape(indices)
+        if not isinstance(self.lowered, (CompiledSystem, DrivenLowered)):
+            return _observe(self.lowered, jnp.asarray(indices), self.t, self.x, self.w, self.p)
+        observe = self.lowered.observe
+        values = jax.vmap(lambda t, x, w: observe(t, x, w, self.p, ids))(self.t, self.x, self.w)
+        return jnp.reshape(values, (*values.shape[:1], *shape))
 
     @functools.cached_property
     def _n_all(self) -> int:

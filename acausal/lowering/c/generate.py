@@ -1,0 +1,315 @@
+"""C source of a system that is small enough to be written out: equations, derivatives, factors, in one file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from importlib.resources import files
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy import sparse
+
+from ...simulation import rodas5p_tableau as tableau
+from ...symbolic.expr import ZERO, Expr, par
+from ...symbolic.jacobian import Row
+from ...symbolic.traverse import substitute
+from .emit import Hoisted, Writer
+from .factor import Factorisation, factor_lines, plan_factors, solve_lines
+from .straight import TIME_COLUMN, Straight, family_residuals, reduce_strength, write_out
+from .text import number
+
+if TYPE_CHECKING:
+    from ...language.flat_model import Assignment
+    from ..initial import InitialProblem
+    from ..parameters import ParameterProgram
+
+RUNTIME = ("acausal.h", "solver.h", "projection.h")
+TANGENTS = "AC_TANGENTS"
+
+
+@dataclass(frozen=True, slots=True)
+class CSource:
+    """Generated C.
+
+    Attributes:
+        text: the file of this model.
+        runtime: the fixed files that it includes, by name.
+    """
+
+    text: str
+    runtime: dict[str, str]
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def runtime_files() -> dict[str, str]:
+    """The fixed files."""
+    folder = files("acausal.lowering.c") / "runtime"
+    return {name: (folder / name).read_text(encoding="utf-8") for name in RUNTIME}
+
+
+def to_c(program: ParameterProgram, problem: InitialProblem, labels: Callable[[int], str] | None = None) -> CSource:
+    """C source of a compiled system.
+
+    Args:
+        program: its parameters.
+        problem: its initialization, with the lowered equations.
+        labels: name of a variable by number, for comments.
+
+    Raises:
+        NotInC: the model calls Python functions.
+    """
+    return CSource(_Small(program, problem, labels).file(), runtime_files())
+
+
+class _Small:
+    """A system written out in straight lines."""
+
+    def __init__(self, program: ParameterProgram, problem: InitialProblem, labels: Callable[[int], str] | None) -> None:
+        self.program, self.problem = program, problem
+        self.lowered = lowered = problem.lowered
+        self.n_par = n_par = program.flat.n_par
+        self.n_inputs = len(program.flat.inputs)
+        self.straight: Straight = write_out(lowered)
+        s = self.straight
+        self.n_x, self.n_z = lowered.n_x, s.n_z
+        outputs = [s.known[int(i)] for i in lowered.dx_ids] + s.residuals
+        invariants = family_residuals(s, lowered.schedule.invariants)
+        targets = [s.known[int(i)] for i in problem.targets]
+        conditions = [*s.residuals, *invariants, *targets, *family_residuals(s, problem.families)]
+        self._reduce([*outputs, *invariants, *conditions])
+        slopes = {n_par + i: par(lowered.n_p + i) for i in range(self.n_inputs)}
+        self.field = _Block(self._roots[: self.n_z])
+        self.invariants = _Block(self._roots[self.n_z : self.n_z + len(invariants)])
+        self.conditions = _Block(self._roots[self.n_z + len(invariants) :])
+        rows = s.jacobian(self._roots, slopes)
+        for block in (self.field, self.invariants, self.conditions):
+            block.differentiate(rows[: len(block.values)])
+            rows = rows[len(block.values) :]
+        self.hoisted = Hoisted(lambda leaf: leaf.value < n_par)
+        self.observed = reduce_strength(s.known.values())
+        self.labels: dict[int, str] = {}
+        if labels is not None:
+            for v, e in zip(s.known, self.observed, strict=True):
+                if e.args:
+                    self.labels.setdefault(id(e), labels(v))
+
+    def _reduce(self, roots: list[Expr]) -> None:
+        """Cheaper forms of the outputs and of what the linear solves need, all sharing."""
+        s = self.straight
+        flat = list(roots)
+        for solve in s.solves:
+            flat += [*(e for line in solve.matrix for e in line), *solve.rhs]
+        new = iter(reduce_strength(flat))
+        self._roots = [next(new) for _ in roots]
+        for k, solve in enumerate(s.solves):
+            matrix = tuple(tuple(next(new) for _ in line) for line in solve.matrix)
+            s.solves[k] = type(solve)(solve.factor, matrix, tuple(next(new) for _ in solve.rhs), solve.targets)
+
+    # ---- pieces -----------------------------------------------------------------------------------
+    def plan(self) -> Factorisation:
+        """Order and fill of the factors."""
+        rows, columns = (np.array([e[k] for e in self.field.entries], np.int64) for k in (0, 1))
+        shape = (self.n_z, self.n_z)
+        pattern = sparse.csr_matrix((np.arange(len(rows)) + 1, (rows, columns)), shape=shape)
+        pattern.data = pattern.data - 1
+        return plan_factors(pattern, np.arange(self.n_z) < self.n_x)
+
+    def _leaf(self, node: Expr) -> str:
+        if node.op == "time":
+            return "t"
+        if node.op == "var":
+            return f"z[{node.value}]"
+        if node.value < self.n_par:
+            return f"p[{node.value}]"
+        k = node.value - self.n_par
+        return f"m->u[{k}]" if k < self.n_inputs else f"m->du[{k - self.n_inputs}]"
+
+    def _tangent(self, node: Expr) -> str | None:
+        if node.op == "time":
+            return None
+        if node.op == "var":
+            return f"dz[{node.value}]"
+        return f"dp[{node.value}]" if node.value < self.n_par + self.n_inputs else None
+
+    def _function(
+        self, head: str, values: Iterable[tuple[str, Expr]], tangents: Iterable[tuple[str, Expr]] = ()
+    ) -> str:
+        tangents = list(tangents)
+        writer = Writer(self.straight, self._leaf, self._tangent if tangents else None, self.hoisted, self.labels)
+        body = ["AC_UNUSED const double *p = m->p, *c = m->c;"]
+        if tangents:
+            body.append("AC_UNUSED const ac_vector *dp = m->dp, *dc = m->dc;")
+        return _braces(head, [*body, *writer.function(values, tangents)])
+
+    def functions(self) -> list[str]:
+        """Field, constraints, conditions of the start, with their derivatives."""
+        f, jacobian = self.field.assign("f"), self.field.assign_entries("J")
+        rates = [(f"ft[{i}]", e) for i, e in enumerate(self.field.rates)]
+        out = [
+            self._function(f"static void ac_field({_AT}, double *f)", f),
+            self._function(
+                f"static void ac_field_jacobian({_AT}, double *f, double *ft, double *J)", [*f, *jacobian, *rates]
+            ),
+        ]  # fmt: skip
+        for name, block in (("invariants", self.invariants), ("conditions", self.conditions)):
+            head = f"AC_UNUSED static void ac_{name}({_AT}, double *g, double *G)"
+            out.append(self._function(head, [*block.assign("g"), *block.assign_entries("G")]))
+        return out
+
+    def tangent_functions(self) -> list[str]:
+        """The same along directions."""
+        at = _AT + ", const ac_vector *dz"
+        jacobian = self.field.assign_entries("dJ")
+        rates = [(f"dft[{i}]", e) for i, e in enumerate(self.field.rates)]
+        out = [
+            self._function(f"static void ac_field_tangent({at}, ac_vector *df)", (), self.field.assign("df")),
+            self._function(
+                f"static void ac_jacobian_tangent({at}, ac_vector *dJ, ac_vector *dft)", (), [*jacobian, *rates]
+            ),
+        ]  # fmt: skip
+        for name, block in (("invariants", self.invariants), ("conditions", self.conditions)):
+            head = f"AC_UNUSED static void ac_{name}_tangent({at}, ac_vector *dg)"
+            out.append(self._function(head, (), block.assign("dg")))
+        return out
+
+    def observe(self) -> str:
+        """All variables of the reduced model, by number; those that are not computed are left alone."""
+        values = [(f"all[{v}]", e) for v, e in zip(self.straight.known, self.observed, strict=True)]
+        return self._function(f"AC_UNUSED static void ac_observe({_AT}, double *all)", values)
+
+    def constants(self, tangents: bool) -> str:
+        """Expressions of parameters, and with tangents theirs."""
+        values = [(f"c[{i}]", e) for i, e in enumerate(self.hoisted.nodes)]
+        writer = Writer(self.straight, self._leaf, self._tangent if tangents else None)
+        if not tangents:
+            return _braces("static void ac_constants(const double *p, double *c)", writer.function(values))
+        moving = [(f"dc[{i}]", e) for i, e in enumerate(self.hoisted.nodes)]
+        head = "static void ac_constants_tangent(const double *p, const ac_vector *dp, ac_vector *dc)"
+        return _braces(head, writer.function((), moving))
+
+    def assignments(self, assignments: list[Assignment], name: str, given: bool, tangents: bool) -> list[str]:
+        """Statements ``name[target] = expression`` of parameters, in order."""
+        lines: list[str] = []
+        for a in assignments:
+            for target, row in zip(a.targets.tolist(), a.par_rows.tolist(), strict=True):
+                e = reduce_strength((substitute(a.expression, {par(i): par(p) for i, p in enumerate(row)}),))[0]
+                writer = Writer(self.straight, self._leaf, self._tangent if tangents else None)
+                place = f"{'d' if tangents else ''}{name}[{target}]"
+                body = writer.function((), [(place, e)]) if tangents else writer.function([(place, e)])
+                test = f"if (!given[{target}]) " if given else ""
+                lines.append(test + "{ " + " ".join(body) + " }")
+        return lines
+
+    def parameters(self, tangents: bool) -> list[str]:
+        """Dependent parameters, and start values that depend on parameters."""
+        d = ", const ac_vector *dp, ac_vector *ds" if tangents else ", double *s"
+        d_p = ", ac_vector *dp" if tangents else ""
+        end = "_tangent" if tangents else ""
+        p = "const double *p" if tangents else "double *p"
+        ordered, starts = self.program.ordered, self.program.flat.start_assignments
+        return [
+            _braces(
+                f"static void ac_parameters{end}(const unsigned char *given, {p}{d_p})",
+                self.assignments(ordered, "p", True, tangents),
+            ),
+            _braces(f"static void ac_starts{end}(const double *p{d})", self.assignments(starts, "s", False, tangents)),
+        ]
+
+    # ---- the file ---------------------------------------------------------------------------------
+    def file(self) -> str:
+        """The whole file."""
+        plan = self.plan()
+        nominal = np.concatenate([self.lowered.x_nominal, self.lowered.w_nominal])
+        functions, tangents, observe = self.functions(), self.tangent_functions(), self.observe()
+        constants, constants_tangent = self.constants(False), self.constants(True)
+        sizes = {
+            "AC_N": self.n_z, "AC_NX": self.n_x, "AC_NZ": len(self.field.entries), "AC_NF": max(plan.size, self.n_z),
+            "AC_NC": len(self.hoisted.nodes), "AC_NU": self.n_inputs, "AC_NPAR": self.n_par, "AC_NP": self.lowered.n_p,
+            "AC_NG": len(self.invariants.values), "AC_NGZ": len(self.invariants.entries),
+            "AC_NI": len(self.conditions.values), "AC_NIZ": len(self.conditions.entries),
+            "AC_NALL": self.lowered.n_ids,
+        }  # fmt: skip
+        head = [f"#define {name} {value}" for name, value in sizes.items()]
+        arrays = [*self.field.arrays("ac"), *self.invariants.arrays("ac_g"), *self.conditions.arrays("ac_i")]
+        arrays.append(_array("double", "ac_nominal", nominal.tolist()))
+        factor = [
+            _braces("static int ac_factor(double d, const double *J, double *F)", factor_lines(plan, nominal)),
+            _braces("static void ac_solve(const double *F, double *b)", solve_lines(plan, "double")),
+        ]
+        along = _braces("static void ac_solve_vector(const double *F, ac_vector *b)", solve_lines(plan, "ac_vector"))
+        parts = [
+            *head, '#include "acausal.h"', *arrays, *_tableau(), *self.parameters(False), constants, *functions,
+            observe, *factor, f"#ifdef {TANGENTS}", *self.parameters(True), constants_tangent, *tangents, along,
+            "#endif", '#include "solver.h"',
+        ]  # fmt: skip
+        return "\n".join(parts) + "\n"
+
+
+_AT = "const ac_model *m, double t, const double *z"
+
+
+class _Block:
+    """Some expressions and their derivatives.
+
+    Attributes:
+        values: the expressions.
+        entries: (row, column) of their derivatives with respect to z that are not zero.
+        slopes: these derivatives.
+        rates: derivatives with respect to time.
+    """
+
+    def __init__(self, values: list[Expr]) -> None:
+        self.values = values
+        self.entries: list[tuple[int, int]] = []
+        self.slopes: list[Expr] = []
+        self.rates: list[Expr] = []
+
+    def differentiate(self, rows: list[Row]) -> None:
+        """Take the derivatives from sparse rows."""
+        self.entries = [(i, c) for i, row in enumerate(rows) for c in sorted(row) if c != TIME_COLUMN]
+        flat = reduce_strength([rows[i][c] for i, c in self.entries] + [row.get(TIME_COLUMN, ZERO) for row in rows])
+        self.slopes, self.rates = flat[: len(self.entries)], flat[len(self.entries) :]
+
+    def assign(self, name: str) -> list[tuple[str, Expr]]:
+        """Where the values go."""
+        return [(f"{name}[{i}]", e) for i, e in enumerate(self.values)]
+
+    def assign_entries(self, name: str) -> list[tuple[str, Expr]]:
+        """Where the derivatives go."""
+        return [(f"{name}[{i}]", e) for i, e in enumerate(self.slopes)]
+
+    def arrays(self, name: str) -> list[str]:
+        """Rows and columns of the derivatives."""
+        return [
+            _array("int", f"{name}_row", [i for i, _ in self.entries]),
+            _array("int", f"{name}_column", [j for _, j in self.entries]),
+        ]
+
+
+def _braces(head: str, lines: Iterable[str]) -> str:
+    return "\n".join([head + " {", *("    " + line for line in lines), "}"])
+
+
+def _array(kind: str, name: str, values: list[int] | list[float]) -> str:
+    text = ", ".join(number(v) if kind == "double" else str(v) for v in values) or "0"
+    return f"AC_UNUSED static const {kind} {name}[{max(len(values), 1)}] = {{{text}}};"
+
+
+def _tableau() -> list[str]:
+    """Coefficients of the method."""
+
+    def rows(a: np.ndarray) -> str:
+        return ", ".join("{" + ", ".join(number(v) for v in row) + "}" for row in a.tolist())
+
+    return [
+        f"static const double ac_gamma = {tableau.GAMMA!r};",
+        f"static const double ac_A[8][8] = {{{rows(tableau.A)}}};",
+        f"static const double ac_C[8][8] = {{{rows(tableau.C)}}};",
+        f"static const double ac_H[3][8] = {{{rows(tableau.H)}}};",
+        _array("double", "ac_B", tableau.B.tolist()),
+        _array("double", "ac_nodes", tableau.NODES.tolist()),
+        _array("double", "ac_D", tableau.D.tolist()),
+    ]

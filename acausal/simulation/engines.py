@@ -1,0 +1,229 @@
+"""Which engine runs a simulation: generated C where it can, diffrax otherwise."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeGuard
+
+import numpy as np
+
+from acausal.errors import SimulationError, UnknownNameError, nearest
+from acausal.lowering.c.text import NotInC
+from acausal.lowering.numeric import is_concrete
+from acausal.symbolic.traverse import postorder
+
+from .native import LARGEST, Given, NativeModel, Tolerances, native_model
+from .native_build import NoCompiler, compiler
+from .native_library import RESULTS, Floats, Run, Signal
+
+if TYPE_CHECKING:
+    from .solution import Solution
+
+ENGINES = ("auto", "diffrax", "native")
+POINTS = 501
+ATOL = 0.1
+INVARIANT_SAFETY = 0.1
+MAX_STEPS = 1_000_000
+_said: set[str] = set()
+
+
+def simulate(system: Any, t1: Any, *, engine: str = "auto", **options: Any) -> Solution:
+    """As `acausal.simulation.simulate.simulate`, with the engine chosen.
+
+    Raises:
+        SimulationError: there is no such engine, or it cannot do what is asked; the message says why.
+    """
+    if engine not in ENGINES:
+        raise SimulationError(f"There is no engine {engine!r}; there are {', '.join(map(repr, ENGINES))}.")
+    if engine != "diffrax":
+        reason = why_not_native(system, options)
+        if reason is None:
+            return _native(system, t1, **{k: v for k, v in options.items() if v is not None})
+        if engine == "native":
+            raise SimulationError(f"The native engine cannot run this: {reason}. Take engine='diffrax' or 'auto'.")
+    from .simulate import simulate as with_diffrax
+
+    return with_diffrax(system, t1, engine="diffrax", **options)
+
+
+def why_not_native(system: Any, options: Mapping[str, Any]) -> str | None:
+    """Why the native engine cannot run a simulation with these options; None if it can."""
+    for name in ("solver", "stepsize_controller", "adjoint"):
+        if options.get(name) is not None:
+            return f"`{name}=` is one of diffrax"
+    if not isinstance(options.get("events", True), bool):
+        return "`events=` is a diffrax event"
+    saveat = options.get("saveat")
+    if _of_diffrax(saveat) and (saveat.dense or not hasattr(saveat.subs, "ts") or saveat.subs.steps):
+        return "`saveat=` asks for the solver's own steps"
+    for name, value in (options.get("inputs") or {}).items():
+        if callable(value):
+            return f"the input `{name}` is a Python function (a number or a table (times, values) can be used)"
+    return _why_not(system)
+
+
+def _of_diffrax(saveat: Any) -> TypeGuard[Any]:
+    """Whether `saveat` is diffrax's `SaveAt` (without importing it)."""
+    return type(saveat).__module__.startswith("diffrax")
+
+
+def _why_not(system: Any) -> str | None:
+    """Why this system cannot run natively; found once."""
+    if "why_not_native" not in system.cache:
+        system.cache["why_not_native"] = _find_out(system)
+    return system.cache["why_not_native"]
+
+
+def _find_out(system: Any) -> str | None:
+    low = system.lowered
+    if not low.n_x:
+        return "the model has no states"
+    if _size(low) > LARGEST:
+        return f"the model has more than {LARGEST} operations"
+    try:
+        compiler()
+        native_model(system)
+    except NoCompiler as error:
+        if "compiler" not in _said:
+            _said.add("compiler")
+            warnings.warn(f"{error} Simulations run with diffrax until then.", stacklevel=5)
+        return "there is no C compiler"
+    except NotInC as error:
+        return str(error)
+    return None
+
+
+def _size(lowered: Any) -> int:
+    """Operations of the written-out system."""
+    total = 0
+    for group in lowered.schedule.groups:
+        kernel = group.kernel
+        roots = [e for _, e in kernel.steps] + list(kernel.residuals) + [e for line in kernel.matrix for e in line]
+        total += group.size * (len(postorder(roots)) + len(kernel.matrix) ** 3 // 10)
+    return total
+
+
+def _native(
+    system: Any, t1: Any, *, t0: Any = 0.0, parameters: Mapping[str, Any] | None = None,
+    initial: Mapping[str, Any] | None = None, inputs: Mapping[str, Any] | None = None, saveat: Any = None,
+    rtol: Any = 1e-6, atol: Any = None, events: Any = True, max_steps: int = MAX_STEPS, throw: bool = True,
+    progress: bool = False, dt: Any = None, **rest: Any,
+) -> Solution:  # fmt: skip
+    """Run with the native engine."""
+    del events, rest
+    model = native_model(system)
+    signals = all_signals(system, inputs)
+    arguments = (t0, t1, saveat, rtol, atol, dt, dict(parameters or {}), dict(initial or {}), signals)
+    if not is_concrete(arguments):
+        from .native_jax import simulate_traced
+
+        return simulate_traced(model, *arguments, inputs=inputs, max_steps=max_steps, throw=throw)
+    t0, t1 = float(t0), float(t1)
+    given = Given(parameters or {}, initial or {}, [(np.asarray(t, float), np.asarray(v, float)) for t, v in signals])
+    save = output_times(saveat, t0, t1)
+    begin = time.perf_counter()
+    model.library()
+    compiled = time.perf_counter()
+    how = tolerances(system, rtol, atol, dt, max_steps)
+    started, run = model.run(t0, t1, save, given, how, check=throw)
+    seconds = compiled - begin, time.perf_counter() - compiled
+    return finish(model, save, started.p, run, given.signals, seconds, t1, max_steps, throw=throw)
+
+
+def output_times(saveat: Any, t0: float, t1: float) -> Floats:
+    """Output times of a concrete run."""
+    if saveat is None or isinstance(saveat, int):
+        return np.linspace(t0, t1, POINTS if saveat is None else saveat)
+    if _of_diffrax(saveat):
+        sub = saveat.subs
+        times = [] if sub.ts is None else [np.asarray(sub.ts, float)]
+        ends = [[t0]] if sub.t0 else []
+        return np.concatenate([*ends, *times, *([[t1]] if sub.t1 else [])]).astype(float)
+    times = np.atleast_1d(np.asarray(saveat, float))
+    inside = (times - t0) * (times - t1) <= 1e-12 * (t1 - t0) ** 2
+    if not inside.all():
+        raise SimulationError(
+            f"`saveat` has the time {times[~inside][0]:g} s, outside of the run from {t0:g} s to {t1:g} s."
+        )
+    return times
+
+
+def tolerances(system: Any, rtol: Any, atol: Any, dt: Any, max_steps: int) -> Tolerances:
+    """Tolerances of each unknown: as in the diffrax engine."""
+    low = system.lowered
+    safety = INVARIANT_SAFETY if low.n_g else 1.0
+    rtol = float(rtol)
+    relative = np.broadcast_to(np.asarray(ATOL * rtol if atol is None else atol, float), (low.n_x,))
+    scale = np.concatenate([relative * low.x_nominal, relative.min() * low.w_nominal])
+    return Tolerances(safety * rtol, safety * scale, 0.0 if dt is None else float(dt), max_steps)
+
+
+def all_signals(system: Any, inputs: Mapping[str, Any] | None) -> list[tuple[Any, Any]]:
+    """Every input of the model as a signal, those not given at their start value.
+
+    Raises:
+        UnknownNameError: the model has no such input.
+        SimulationError: a table whose times and values do not fit, or whose times do not increase.
+    """
+    names = tuple(system.input_names)
+    flat = system.program.flat
+    first = flat.n_par
+    signals: list[tuple[Any, Any]] = [
+        (np.zeros(1), system.program.base[first + k : first + k + 1]) for k in range(len(names))
+    ]
+    for name, value in (inputs or {}).items():
+        if name not in names:
+            known = nearest(name, names) or f" Its inputs are: {', '.join(names) or 'none'}."
+            raise UnknownNameError(f"The model has no input `{name}`.{known}")
+        signals[names.index(name)] = _signal(name, value)
+    return signals
+
+
+def _signal(name: str, value: Any) -> tuple[Any, Any]:
+    if isinstance(value, (tuple, list)) and len(value) == 2 and np.ndim(value[0]) == 1:
+        times, values = value
+        if np.shape(times) != np.shape(values) or np.shape(times)[0] < 1:
+            raise SimulationError(
+                f"The table of the input `{name}` has times of shape {np.shape(times)} and values of shape "
+                f"{np.shape(values)}; they must be vectors of the same length."
+            )
+        if is_concrete((times,)) and (np.diff(np.asarray(times, float)) <= 0).any():
+            raise SimulationError(f"The times of the input `{name}` must increase.")
+        return times, values
+    if np.ndim(value) == 0 and not isinstance(value, str):
+        number: Any = value
+        return np.zeros(1), number[None] if hasattr(number, "shape") else np.array([float(number)])
+    raise SimulationError(
+        f"The input `{name}` is a {type(value).__name__}; give a number, a pair (times, values), or a function of time."
+    )
+
+
+def finish(
+    model: NativeModel, save: Floats, p: Floats, run: Run, signals: Sequence[Signal], seconds: tuple[float, float],
+    t1: float, max_steps: int, *, throw: bool,
+) -> Solution:  # fmt: skip
+    """The solution of a concrete run; raises where it failed."""
+    from .solution import Solution
+
+    system = model.system
+    low = system.lowered
+    counts = run.counts
+    stats: dict[str, Any] = {k: counts[k] for k in ("steps", "accepted", "rejected")}
+    stats |= {"rhs": 8 * counts["steps"], "jacobians": counts["accepted"], "solver": "Rodas5P", "engine": "native"}
+    stats |= {"compile_seconds": seconds[0], "run_seconds": seconds[1], "t_end": run.t_end}
+    z, t = run.z[: run.saved], save[: run.saved]
+
+    def observe(t: Any, z: Any) -> Any:
+        return model.observe(t, z, p, signals)
+
+    solution = Solution(
+        system, t, z[:, : low.n_x], z[:, low.n_x :], p, stats=stats, result=RESULTS[run.code], observe=observe
+    )
+    if throw and run.code:
+        from .failure import explain
+
+        last = run.t_end, run.z_end[: low.n_x], run.z_end[low.n_x :]
+        raise SimulationError(explain(system, low, RESULTS[run.code], stats, last, p, t1, max_steps))
+    return solution

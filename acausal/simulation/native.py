@@ -1,0 +1,249 @@
+"""The native engine: a whole run in compiled C, from the given values to the trajectories and their sensitivities.
+
+Nothing here needs JAX; `native_jax` wraps it for JAX's transformations.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from acausal.errors import InitializationError
+from acausal.lowering.bounds import check_parameters
+from acausal.lowering.c.generate import CSource, to_c
+from acausal.lowering.initial import EASE_ALGEBRAIC, given_starts
+from acausal.lowering.initial_numeric import solve_numeric
+
+from .native_build import build
+from .native_library import Floats, NativeLibrary, Run, Signal
+
+LARGEST = 40_000
+"""Expression nodes up to which a system is written out in C."""
+WIDTHS = (1, 2, 4, 8)
+"""Numbers of directions that a library is compiled for; more directions take several runs."""
+
+
+@dataclass(slots=True, eq=False)
+class Given:
+    """Values that a user gave, as numbers.
+
+    Attributes:
+        parameters, initial: dotted name to value.
+        signals: of all inputs of the model, in order.
+    """
+
+    parameters: Mapping[str, Any]
+    initial: Mapping[str, Any]
+    signals: Sequence[Signal]
+
+
+@dataclass(slots=True, eq=False)
+class Tolerances:
+    """How a run is controlled: as the arguments of `simulate`."""
+
+    rtol: float
+    atol: Floats
+    first_step: float = 0.0
+    max_steps: int = 1_000_000
+
+
+@dataclass(slots=True, eq=False)
+class Started:
+    """A consistent start: z0, parameters, start values of all variables, residuals left."""
+
+    z0: Floats
+    p: Floats
+    left: Floats
+    mask: Any
+
+
+@dataclass(eq=False)
+class NativeModel:
+    """A system with its compiled libraries, made when they are first needed."""
+
+    system: Any
+    source: CSource
+    libraries: dict[int, NativeLibrary] = field(default_factory=dict[int, NativeLibrary])
+    lock: Any = field(default_factory=threading.Lock)
+
+    def library(self, width: int = 0) -> NativeLibrary:
+        """The library with tangents in `width` directions; 0 is without."""
+        with self.lock:
+            if width not in self.libraries:
+                defines = ("AC_TANGENTS", f"AC_LANES={width}") if width else ()
+                self.libraries[width] = NativeLibrary(build(self.source, defines), bool(width))
+            return self.libraries[width]
+
+    # ---- start ------------------------------------------------------------------------------------
+    def start(self, t0: float, given: Given, library: NativeLibrary, check: bool = True) -> Started:
+        """Parameters and a consistent start.
+
+        Raises:
+            InitializationError, DeclarationError: as `System.check_initial`.
+        """
+        system = self.system
+        program, problem = system.program, system.initial
+        p = program.base.copy()
+        mask = np.zeros(program.n_p, np.uint8)
+        for name, value in given.parameters.items():
+            ids = self.parameter_ids(name)
+            mask[ids] = 1
+            p[ids] = np.broadcast_to(np.asarray(value, float), ids.shape)
+        for k, (times, values) in enumerate(given.signals):
+            p[program.flat.n_par + k] = np.interp(t0, times, values)
+        library.parameters(mask, p)
+        starts = program.flat.start.copy()
+        library.starts(p, starts)
+        overrides = system._overrides(given.initial, np)
+        own = _own_conditions(problem, overrides)
+        conditions = (lambda z: library.conditions(p, t0, z)) if own else None
+        found = solve_numeric(problem, t0, p, starts, overrides, conditions)
+        if found is None:
+            raise InitializationError("the start of this model is too large for the native engine")
+        x0, w0, left = found
+        if check:
+            system.check_initial(x0, w0, p, left, t0)
+        else:
+            check_parameters(program.flat, p)
+        return Started(np.concatenate([x0, w0]), p, left, mask)
+
+    def parameter_ids(self, name: str) -> Any:
+        """Numbers of a parameter (of an array: of all elements)."""
+        cache = self.system.cache.setdefault("parameter_ids", {})
+        if name not in cache:
+            cache[name] = self.system.program.flat.names.find(name, parameter=True)[0].ravel()
+        return cache[name]
+
+    # ---- run --------------------------------------------------------------------------------------
+    def run(
+        self, t0: float, t1: float, save: Floats, given: Given, how: Tolerances, check: bool = True
+    ) -> tuple[Started, Run]:
+        """Start and integrate."""
+        library = self.library()
+        started = self.start(t0, given, library, check)
+        run = library.run(
+            t0, t1, started.z0, started.p, save, rtol=how.rtol, atol=how.atol, signals=given.signals,
+            first_step=how.first_step, max_steps=how.max_steps,
+        )  # fmt: skip
+        return started, run
+
+    def sensitivities(
+        self, t0: float, t1: float, save: Floats, given: Given, how: Tolerances, seeds: Sequence[Seed],
+        check: bool = True,
+    ) -> tuple[Started, Run, Floats, Floats]:  # fmt: skip
+        """As `run`, with derivatives along `seeds`: of z (n_t, n, k) and of the parameters (n_p, k)."""
+        width = next((w for w in WIDTHS if w >= len(seeds)), WIDTHS[-1])
+        library = self.library(width)
+        started = self.start(t0, given, library, check)
+        slopes: list[Floats] = []
+        p_slopes: list[Floats] = []
+        run: Run | None = None
+        for first in range(0, len(seeds), width):
+            dz0, dp = self._start_tangent(t0, given, started, library, seeds[first : first + width])
+            run = library.run(
+                t0, t1, started.z0, started.p, save, rtol=how.rtol, atol=how.atol, signals=given.signals,
+                first_step=how.first_step, max_steps=how.max_steps, tangents=(dz0, dp),
+            )  # fmt: skip
+            count = len(seeds[first : first + width])
+            assert run.dz is not None
+            slopes.append(run.dz[:, :, :count])
+            p_slopes.append(dp[:, :count])
+        assert run is not None
+        return started, run, np.concatenate(slopes, axis=2), np.concatenate(p_slopes, axis=1)
+
+    def _start_tangent(
+        self, t0: float, given: Given, started: Started, library: NativeLibrary, seeds: Sequence[Seed]
+    ) -> tuple[Floats, Floats]:
+        """Tangents of z0 (n, lanes) and p (n_p, lanes): the implicit-function theorem at the start.
+
+        Where the conditions leave freedom, start values move the solution within the null space of the Jacobian.
+        """
+        system, lanes = self.system, library.lanes
+        program, problem = system.program, system.initial
+        low = problem.lowered
+        dp = np.zeros((program.n_p, lanes))
+        for k, seed in enumerate(seeds):
+            if seed.kind != "initial":
+                first = program.flat.n_par if seed.kind == "input" else 0
+                dp[first + np.array(seed.indices), k] = 1.0
+        library.parameters_tangent(started.mask, started.p, dp)
+        d_starts = np.zeros((len(program.flat.start), lanes))
+        library.starts_tangent(started.p, dp, d_starts)
+        starts = program.flat.start.copy()
+        library.starts(started.p, starts)
+        overrides = system._overrides(given.initial, np)
+        if not _own_conditions(problem, overrides):
+            raise InitializationError(
+                "the native engine does not differentiate a start that is given by a variable which is not a state "
+                f"(states are {', '.join(system.states)}); take engine='diffrax'"
+            )
+        given_at = given_starts(problem, starts, overrides, np)
+        dz = np.zeros((library.n, lanes))
+        known = np.concatenate([low.schedule.states, low.schedule.tears])
+        source, sign = problem.start_source[known], problem.start_sign[known]
+        dz[:] = sign[:, None] * np.where(np.isnan(starts[source])[:, None], 0.0, d_starts[source])
+        dz[low.n_x :] = 0.0
+        d_wanted = problem.start_sign[problem.targets, None] * d_starts[problem.start_source[problem.targets]]
+        position = {int(v): i for i, v in enumerate(low.schedule.states)}
+        for k, seed in enumerate(seeds):
+            for index, sign_of in zip(seed.indices, seed.signs, strict=True) if seed.kind == "initial" else ():
+                dz[position[index]] = 0.0
+                dz[position[index], k] = sign_of
+        _, j = library.conditions(started.p, t0, started.z0)
+        rate = library.conditions_tangent(started.p, dp, t0, started.z0, dz)
+        n_w, n_g = low.n_w, low.n_g
+        rate[n_w + n_g : n_w + n_g + len(problem.targets)] -= d_wanted
+        fixed = given_at.fixed if given_at.conditions else np.ones(low.n_x, bool)
+        free = np.concatenate([np.flatnonzero(~fixed), low.n_x + np.arange(n_w)])
+        ease = np.concatenate([problem.ease, EASE_ALGEBRAIC * low.w_nominal])[free]
+        if len(free) and len(rate):
+            matrix = j[:, free] * ease
+            size = np.abs(matrix).max(axis=1, initial=0.0)
+            size = np.where(size > 0, size, 1.0)[:, None]
+            dz[free] -= ease[:, None] * np.linalg.lstsq(matrix / size, rate / size, rcond=1e-11)[0]
+        return dz, dp
+
+    # ---- what follows from the states -------------------------------------------------------------
+    def observe(self, t: Floats, z: Floats, p: Floats, signals: Sequence[Signal]) -> Floats:
+        """All variables of the flat model, (n_t, n_all)."""
+        values = self.library().observe(p, signals, t, z)
+        low = self.system.lowered
+        return np.where(low.sign == 0, 0.0, low.sign * np.nan_to_num(values[:, low.representative], nan=np.nan))
+
+
+@dataclass(frozen=True, slots=True)
+class Seed:
+    """One direction of differentiation: a parameter, an input that is constant, or the start value of a variable.
+
+    Attributes:
+        kind: ``parameter``, ``input`` or ``initial``.
+        indices: its numbers: of parameters, of an input, of reduced variables, that all take the same value.
+        signs: of aliases.
+    """
+
+    kind: str
+    indices: tuple[int, ...]
+    signs: tuple[float, ...]
+
+
+def _own_conditions(problem: Any, overrides: Mapping[int, Any]) -> bool:
+    """Whether the conditions of the start are those that were compiled: further fixed starts are of states only."""
+    states = set(problem.lowered.schedule.states.tolist())
+    return all(k in states for k in overrides)
+
+
+def native_model(system: Any) -> NativeModel:
+    """The system's native model: C is written once.
+
+    Raises:
+        NotInC: the model has something that cannot be written in C.
+    """
+    if "native" not in system.cache:
+        flat = system.stages.flat
+        source = to_c(system.program, system.initial, lambda v: flat.name(v) if v < flat.n_total else "")
+        system.cache["native"] = NativeModel(system, source)
+    return system.cache["native"]

@@ -1,0 +1,221 @@
+"""The native engine inside JAX: one callback a solve, derivatives by the sensitivities that the solve itself gives.
+
+The tangent of a solve is its sensitivity matrix times the tangents of the values: the callback depends on primals only
+and the rest is linear, so that forward and reverse mode, `vmap` and `jit` all go through it.
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax.custom_derivatives import SymbolicZero
+
+from acausal.errors import AcausalError, SimulationError
+
+from .cache import ById
+from .engines import ATOL, INVARIANT_SAFETY, POINTS
+from .inputs import drive
+from .native import Given, NativeModel, Seed, Tolerances
+from .native_library import RESULTS
+from .solution import Solution
+
+
+@dataclass(frozen=True)
+class _Spec:
+    """What a solve is made for: everything but the numbers.
+
+    Attributes:
+        model: the native model.
+        parameters, initial: names of the values given.
+        tables: for each input, whether it is a table.
+        max_steps, throw: as for `simulate`.
+    """
+
+    model: ById
+    parameters: tuple[str, ...]
+    initial: tuple[str, ...]
+    tables: tuple[bool, ...]
+    max_steps: int
+    throw: bool
+
+
+def simulate_traced(
+    model: NativeModel, t0: Any, t1: Any, saveat: Any, rtol: Any, atol: Any, dt: Any, parameters: dict[str, Any],
+    initial: dict[str, Any], signals: list[tuple[Any, Any]], *, inputs: Any, max_steps: int, throw: bool,
+) -> Solution:  # fmt: skip
+    """A solve with traced values."""
+    low = model.system.lowered
+    save = _times(saveat, t0, t1)
+    safety = INVARIANT_SAFETY if low.n_g else 1.0
+    wanted = ATOL * jnp.asarray(rtol, float) if atol is None else jnp.asarray(atol, float)
+    relative = jnp.broadcast_to(wanted, (low.n_x,))
+    scale = jnp.concatenate([relative * low.x_nominal, jnp.min(relative) * jnp.asarray(low.w_nominal)])
+    tables = tuple(np.shape(t)[0] > 1 for t, _ in signals)
+    spec = _Spec(ById(model), tuple(parameters), tuple(initial), tables, max_steps, throw)
+    values = (
+        tuple(jnp.asarray(v, float) for v in parameters.values()),
+        tuple(jnp.asarray(v, float) for v in initial.values()),
+        tuple(jnp.asarray(v[0], float) for (_, v), table in zip(signals, tables, strict=True) if not table),
+    )
+    plain = (
+        jnp.asarray(t0, float), jnp.asarray(t1, float), save, safety * jnp.asarray(rtol, float), safety * scale,
+        jnp.asarray(0.0 if dt is None else dt, float),
+        tuple((jnp.asarray(t, float), jnp.asarray(v, float)) for t, v in signals if np.shape(t)[0] > 1),
+    )  # fmt: skip
+    x, w, p, counts = _solve(spec, values, plain)
+    stats = {"steps": counts[0], "accepted": counts[1], "rejected": counts[2], "solver": "Rodas5P", "engine": "native"}
+    if not inputs:
+        return Solution(model.system, save, x, w, p, stats=stats)
+    lowered, numbers = drive(model.system, inputs)
+    return Solution(model.system, save, x, w, (p, numbers), stats=stats, lowered=lowered)
+
+
+def _times(saveat: Any, t0: Any, t1: Any) -> Any:
+    if saveat is None or isinstance(saveat, int):
+        return jnp.linspace(jnp.asarray(t0, float), jnp.asarray(t1, float), POINTS if saveat is None else saveat)
+    if type(saveat).__module__.startswith("diffrax"):
+        sub = saveat.subs
+        ends = [jnp.atleast_1d(jnp.asarray(e, float)) for e, wanted in ((t0, sub.t0), (t1, sub.t1)) if wanted]
+        middle = [] if sub.ts is None else [jnp.asarray(sub.ts, float)]
+        return jnp.concatenate([*ends[:1], *middle, *ends[1:]] if sub.t0 else [*middle, *ends])
+    return jnp.atleast_1d(jnp.asarray(saveat, float))
+
+
+@functools.partial(jax.custom_jvp, nondiff_argnums=(0,))
+def _solve(spec: _Spec, values: Any, plain: Any) -> Any:
+    """Trajectories x (n_t, n_x) and w (n_t, n_w), parameters (n_p,), and counts (3,)."""
+    shapes = _shapes(spec, plain[2].shape[0])
+    return jax.pure_callback(functools.partial(_host, spec, None), shapes, values, plain, vmap_method="broadcast_all")
+
+
+def _jvp(spec: _Spec, primals: Any, tangents: Any) -> Any:
+    values, plain = primals
+    d_values, d_plain = tangents
+    if any(not isinstance(d, SymbolicZero) for d in jax.tree.leaves(d_plain, is_leaf=_is_zero)):
+        raise SimulationError(
+            "The native engine differentiates parameters, start values and constant inputs; for derivatives with "
+            "respect to times, tolerances or tables take engine='diffrax'."
+        )
+    leaves = jax.tree.leaves(d_values, is_leaf=_is_zero)
+    moving = tuple(k for k, d in enumerate(leaves) if not isinstance(d, SymbolicZero))
+    x, w, p, counts = shapes = _shapes(spec, plain[2].shape[0])
+    k = sum(int(np.prod(leaves[i].shape)) for i in moving)
+    slopes = tuple(jax.ShapeDtypeStruct((*s.shape, k), s.dtype) for s in (x, w, p))
+    (x, w, p, counts), (dx, dw, dp) = jax.pure_callback(
+        functools.partial(_host, spec, moving), (shapes, slopes), values, plain, vmap_method="broadcast_all"
+    )
+    direction = jnp.concatenate([jnp.ravel(leaves[i]) for i in moving] or [jnp.zeros(0)])
+    still = np.zeros(counts.shape, jax.dtypes.float0)
+    return (x, w, p, counts), (dx @ direction, dw @ direction, dp @ direction, still)
+
+
+_solve.defjvp(_jvp, symbolic_zeros=True)  # pyright: ignore[reportUnknownMemberType]
+
+
+def _is_zero(leaf: Any) -> bool:
+    return isinstance(leaf, SymbolicZero)
+
+
+def _shapes(spec: _Spec, n_t: int) -> Any:
+    low = spec.model.thing.system.lowered
+    n_p = spec.model.thing.system.program.n_p
+    return (
+        jax.ShapeDtypeStruct((n_t, low.n_x), float), jax.ShapeDtypeStruct((n_t, low.n_w), float),
+        jax.ShapeDtypeStruct((n_p,), float), jax.ShapeDtypeStruct((3,), int),
+    )  # fmt: skip
+
+
+# ---- on the host ----------------------------------------------------------------------------------
+def _host(spec: _Spec, moving: tuple[int, ...] | None, values: Any, plain: Any) -> Any:
+    """The callback: batches run on threads, which the interpreter lets go while C runs."""
+    values, plain = jax.tree.map(np.asarray, (values, plain))
+    batch = plain[0].shape
+    if not batch:
+        return _one(spec, moving, values, plain)
+    members = list(np.ndindex(batch))
+    one = _picker(spec, moving, values, plain)
+    with ThreadPoolExecutor(max_workers=min(len(members), os.cpu_count() or 1)) as pool:
+        done = list(pool.map(one, members))
+    if not done:
+        raise SimulationError("a batch of simulations is empty")
+    return jax.tree.map(lambda *parts: np.stack(parts).reshape((*batch, *np.shape(parts[0]))), *done)
+
+
+def _picker(spec: _Spec, moving: Any, values: Any, plain: Any) -> Callable[[tuple[int, ...]], Any]:
+    def one(at: tuple[int, ...]) -> Any:
+        picked = jax.tree.map(lambda a: a[at], (values, plain))
+        return _one(spec, moving, *picked)
+
+    return one
+
+
+def _one(spec: _Spec, moving: tuple[int, ...] | None, values: Any, plain: Any) -> Any:
+    """One solve: trajectories, parameters, counts, and with `moving` their slopes."""
+    model: NativeModel = spec.model.thing
+    low, n_p = model.system.lowered, model.system.program.n_p
+    t0, t1, save, rtol, atol, dt, tables = plain
+    given = Given(
+        dict(zip(spec.parameters, values[0], strict=True)), dict(zip(spec.initial, values[1], strict=True)),
+        _signals(spec, values[2], tables),
+    )  # fmt: skip
+    how = Tolerances(float(rtol), np.asarray(atol), float(dt), spec.max_steps)
+    seeds = None if moving is None else _seeds(model, spec, values, moving)
+    dz = dp = None
+    try:
+        if seeds is None:
+            started, run = model.run(float(t0), float(t1), save, given, how, check=spec.throw)
+        else:
+            started, run, dz, dp = model.sensitivities(float(t0), float(t1), save, given, how, seeds, check=spec.throw)
+        z, p = run.z, started.p
+        counts = [run.counts[name] for name in ("steps", "accepted", "rejected")]
+        if run.code and spec.throw:
+            raise SimulationError(
+                f"The simulation stopped at t = {run.t_end:.9g} s of {float(t1):.9g} s: "
+                f"{RESULTS[run.code].replace('_', ' ')}."
+            )
+    except AcausalError:
+        if spec.throw:
+            raise
+        z, p, counts = np.full((len(save), low.n_x + low.n_w), np.nan), np.full(n_p, np.nan), [0, 0, 0]
+        dz = None
+    found = z[:, : low.n_x], z[:, low.n_x :], p, np.array(counts)
+    if seeds is None:
+        return found
+    if dz is None or dp is None:
+        dz, dp = np.full((*z.shape, len(seeds)), np.nan), np.full((n_p, len(seeds)), np.nan)
+    return found, (dz[:, : low.n_x], dz[:, low.n_x :], dp)
+
+
+def _signals(spec: _Spec, constants: Sequence[Any], tables: Sequence[Any]) -> list[Any]:
+    constant, table = iter(constants), iter(tables)
+    return [next(table) if is_table else (np.zeros(1), np.reshape(next(constant), 1)) for is_table in spec.tables]
+
+
+def _seeds(model: NativeModel, spec: _Spec, values: Any, moving: tuple[int, ...]) -> list[Seed]:
+    """Directions of the moving values, one for each element."""
+    representative, sign = model.system.observed_ids
+    places: list[tuple[str, Any, Any]] = []
+    for name in spec.parameters:
+        ids = model.parameter_ids(name)
+        places.append(("parameter", ids, np.ones(len(ids))))
+    for name in spec.initial:
+        ids = np.ravel(model.system.index_of(name))
+        places.append(("initial", representative[ids], sign[ids].astype(float)))
+    places += [("input", np.array([k]), np.ones(1)) for k, table in enumerate(spec.tables) if not table]
+    leaves = [*values[0], *values[1], *values[2]]
+    seeds: list[Seed] = []
+    for k in moving:
+        kind, ids, signs = places[k]
+        if np.ndim(leaves[k]) == 0:
+            seeds.append(Seed(kind, tuple(ids.tolist()), tuple(signs.tolist())))
+        else:
+            seeds += [Seed(kind, (int(i),), (float(s),)) for i, s in zip(ids, signs, strict=True)]
+    return seeds
