@@ -65,7 +65,10 @@ from .language.functions import where as where
 from .symbolic.expr import Expr as Expr
 
 if TYPE_CHECKING:
+    from .analysis.calibrate import calibrate as calibrate
     from .analysis.ensemble import Ensemble as Ensemble
+    from .analysis.experiments import Experiment as Experiment
+    from .analysis.fit import Fit as Fit
     from .analysis.priors import Bounds as Bounds
     from .analysis.priors import CalibrationError as CalibrationError
     from .analysis.priors import LogBounds as LogBounds
@@ -82,7 +85,10 @@ if TYPE_CHECKING:
     from .system import System as System
 
 _LAZY = {
+    "calibrate": "analysis.calibrate",
     "Ensemble": "analysis.ensemble",
+    "Experiment": "analysis.experiments",
+    "Fit": "analysis.fit",
     "Bounds": "analysis.priors",
     "CalibrationError": "analysis.priors",
     "LogBounds": "analysis.priors",
