@@ -232,16 +232,23 @@ class Noise:
         return tuple(self._rows)
 
     def update(self, problem: Problem, values: Floats) -> bool:
-        """Estimates unknown noise from the residuals at a fit; whether it changed."""
+        """Estimates unknown noise from the residuals at a fit; whether it changed.
+
+        The sum of squares of a signal is divided by its samples less its part of the free quantities (its leverage;
+        Seber and Wild, Nonlinear Regression, 4.2).
+        """
         if not self._rows:
             return False
-        r, _ = problem.residual_and_jacobian(values, self.samples)
-        freedom = max(len(r) - len(values), 1) / len(r)
+        r, jacobian = problem.residual_and_jacobian(values, self.samples)
+        lengths = np.linalg.norm(jacobian, axis=0)
+        basis = np.linalg.svd(jacobian / np.where(lengths > 0, lengths, 1.0), full_matrices=False)[0]
+        leverage = (basis**2).sum(axis=1)
         changed = False
         for name, parts in self._rows.items():
             old = self.samples[parts[0]][0]
-            rms = float(np.sqrt(np.mean(np.concatenate([r[part] for part in parts]) ** 2) / freedom)) * old
-            new = max(rms, NOISE_FLOOR * self._floor[name])
+            square = sum(float((r[part] ** 2).sum()) for part in parts)
+            freedom = sum(float((1.0 - leverage[part]).sum()) for part in parts)
+            new = max(old * float(np.sqrt(square / max(freedom, 1.0))), NOISE_FLOOR * self._floor[name])
             changed |= abs(new - old) > NOISE_CHANGE * old
             for part in parts:
                 self.samples[part] = new

@@ -90,11 +90,11 @@ def test_jacobian_is_the_derivative_of_the_residual(oscillator, clean):
 
 
 def test_unknown_noise_is_estimated_for_each_signal(oscillator, clean):
-    data = noisy(clean)
-    found = ac.calibrate(oscillator, data, FREE)
-    sigma = found.residuals.groupby("signal")["sigma"].first()
-    for name in SIGMA:
-        assert sigma[name] == pytest.approx(np.std(data[name] - clean[name]), rel=0.05)
+    fits = [ac.calibrate(oscillator, noisy(clean, seed), FREE) for seed in range(6)]
+    found = fits[0]
+    for name, sigma in SIGMA.items():
+        estimates = [f.residuals.groupby("signal")["sigma"].first()[name] for f in fits]
+        assert np.mean(estimates) == pytest.approx(sigma, rel=0.15)
     assert found.noise.estimated == ("s", "v")
     assert found.quantile(0.95) == pytest.approx(stats.t.ppf(0.975, 2 * len(TIMES) - 2))
 
@@ -197,10 +197,11 @@ def test_experiments_with_own_signals_inputs_and_start_values():
     k, t = 0.7, np.linspace(0.0, 3.0, 16)
     ramp = (np.array([0.0, 3.0]), np.array([0.0, 3.0]))
     exact = (t / k - 1 / k**2) + (2 + 1 / k**2) * np.exp(-k * t)
+    start = {"V": (1.0, 9.0)}
     runs = {
         "drained": ac.Experiment({"t": t, "V": np.exp(-k * t)}, sigma=1e-3),
-        "unknown start": ac.Experiment({"time": t[1:], "V": 3 * np.exp(-k * t[1:])}, sigma=1e-3, free={"V": (1.0, 9.0)}),
-        "another": ac.Experiment({"V": (t[1:], 4 * np.exp(-k * t[1:]))}, sigma=1e-3, free={"V": (1.0, 9.0)}),
+        "unknown start": ac.Experiment({"time": t[1:], "V": 3 * np.exp(-k * t[1:])}, sigma=1e-3, free=start),
+        "another": ac.Experiment({"V": (t[1:], 4 * np.exp(-k * t[1:]))}, sigma=1e-3, free=start),
         "filled": ac.Experiment({"t": t, "V": exact}, sigma=1e-3, initial={"V": 2.0}, inputs={"u": ramp}),
     }
     found = ac.calibrate(system, runs, {"k": ac.LogBounds(0.1, 5.0)}, rtol=1e-8)
