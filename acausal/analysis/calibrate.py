@@ -25,6 +25,9 @@ NOISE_ROUNDS, NOISE_CHANGE = 6, 0.01
 NOISE_GUESS, NOISE_FLOOR = 0.05, 1e-9
 """First guess and least value of unknown noise, as a part of the spread of the signal."""
 
+DEPENDENT = 1e-6
+"""Singular value of the scaled Jacobian below which a combination of parameters takes no degree of freedom."""
+
 
 def calibrate(
     system: System,
@@ -241,8 +244,8 @@ class Noise:
             return False
         r, jacobian = problem.residual_and_jacobian(values, self.samples)
         lengths = np.linalg.norm(jacobian, axis=0)
-        basis = np.linalg.svd(jacobian / np.where(lengths > 0, lengths, 1.0), full_matrices=False)[0]
-        leverage = (basis**2).sum(axis=1)
+        basis, strength, _ = np.linalg.svd(jacobian / np.where(lengths > 0, lengths, 1.0), full_matrices=False)
+        leverage = (basis[:, strength > DEPENDENT] ** 2).sum(axis=1)
         changed = False
         for name, parts in self._rows.items():
             old = self.samples[parts[0]][0]
