@@ -68,7 +68,9 @@ def tools(joint: str, cvode: CvodeProgram | None, quick: bool) -> dict[str, tupl
     return named
 
 
-def measure(joint: str, cvode: CvodeProgram | None, only: list[str] | None, quick: bool) -> tuple[dict[str, Curve], str]:
+def measure(
+    joint: str, cvode: CvodeProgram | None, only: list[str] | None, quick: bool
+) -> tuple[dict[str, Curve], str]:
     """Curves of all tools, and how well the reference is known."""
     crane = integrators.Crane(joint)
     reference = crane.sorted(crane.system.simulate(20.0, rtol=1e-13, saveat=integrators.GRID).x)
@@ -154,8 +156,8 @@ def main(words: list[str] | None = None) -> int:
     for joint, (curves, known) in found.items():
         header, rows = table(curves)
         text = (
-            f"The extended-{joint} crane, scenario *sine*, 0 to 20 s: milliseconds of the solve (compiling and, but for "
-            "`simulate`, initialization are not in it) at equal achieved error, interpolated on each tool's curve. The "
+            f"The extended-{joint} crane, scenario *sine*, 0 to 20 s: milliseconds of the solve (compiling and, but "
+            "for `simulate`, initialization are not in it) at equal achieved error, interpolated on each tool's curve. The "
             "error is the root mean square over all states and 401 times, relative to the range of each state; the "
             f"reference is known to {known}. *{PEER}* is the hand-written program with dense BDF, compiled with -O3 "
             "-march=native. SciPy and scikit-SUNDAE call the compiled vector field and its Jacobian; CasADi has the "
