@@ -27,6 +27,8 @@ COLORS = 1000
 """Problems that would need more directional derivatives are left to the compiled path."""
 ITERATIONS = 100
 HOMOTOPY_STEPS = 20
+SMALLEST_STEP = 1e-15
+"""Step, in units of the variables' scales, that changes nothing any more."""
 DAMPING = 1e-12
 """Added to the normal equations of large problems, whose conditions may repeat each other."""
 
@@ -189,8 +191,8 @@ def root_near(system: _Part, z: Floats) -> Floats:
         delta = _step(r, j, size)
         if delta is None:
             break
-        factor = 1.0
-        while factor > 1e-9:
+        factor, length = 1.0, np.abs(delta).max(initial=0.0)
+        while factor > 1e-9 and factor * length >= SMALLEST_STEP:
             new = z.copy()
             new[system.columns] += factor * delta * system.scale
             r_new, j_new, size_new = system(new)
@@ -201,8 +203,6 @@ def root_near(system: _Part, z: Floats) -> Floats:
             break
         z, r, j, size = new, r_new, j_new, size_new
         norm = _norm(r, size)
-        if np.abs(factor * delta).max(initial=0.0) < 1e-15:
-            break
     return z
 
 
