@@ -13,6 +13,10 @@ COMMANDS = (
     ["benchmarks.ladder", "--peers"],
     ["benchmarks.chain"],
     ["benchmarks.solvers"],
+    ["benchmarks.work_precision"],
+    ["benchmarks.gradients"],
+    ["benchmarks.ensembles"],
+    ["benchmarks.calibration"],
 )
 
 

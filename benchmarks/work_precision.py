@@ -157,8 +157,8 @@ def main(words: list[str] | None = None) -> int:
         header, rows = table(curves)
         text = (
             f"The extended-{joint} crane, scenario *sine*, 0 to 20 s: milliseconds of the solve (compiling and, but "
-            "for `simulate`, initialization are not in it) at equal achieved error, interpolated on each tool's curve. The "
-            "error is the root mean square over all states and 401 times, relative to the range of each state; the "
+            "for `simulate`, initialization are not in it) at equal achieved error, interpolated on each tool's curve. "
+            "The error is the root mean square over all states and 401 times, relative to the range of each state; the "
             f"reference is known to {known}. *{PEER}* is the hand-written program with dense BDF, compiled with -O3 "
             "-march=native. SciPy and scikit-SUNDAE call the compiled vector field and its Jacobian; CasADi has the "
             "same equations as expressions in its virtual machine. Tools that do not reach a level have no entry."
