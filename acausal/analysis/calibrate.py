@@ -40,7 +40,7 @@ def calibrate(
     start: Mapping[str, float] | None = None,
     starts: int = 1,
     seed: int = 0,
-    tolerance: float = 1e-6,
+    tolerance: float = 1e-4,
     iterations: int = 100,
     rtol: float = 1e-6,
     atol: float | None = None,
@@ -65,7 +65,8 @@ def calibrate(
         start: where to begin, by name; default the model's own values.
         starts: number of starts; those after the first are drawn from bounds and priors (Latin hypercube).
         seed: of that draw.
-        tolerance: at which the iteration ends, on coordinates and cost.
+        tolerance: at which the iteration ends, on coordinates (of the order of 1) and cost: a small part of the
+            standard errors.
         iterations: most iterations of each start.
         rtol, atol, engine, max_steps: of the simulations, as in `System.simulate`.
         **options: further options of `System.simulate`.
