@@ -14,6 +14,7 @@ COMMANDS = (
     ["benchmarks.chain"],
     ["benchmarks.solvers"],
     ["benchmarks.work_precision"],
+    ["benchmarks.paper_table"],
     ["benchmarks.gradients"],
     ["benchmarks.ensembles"],
     ["benchmarks.calibration"],
