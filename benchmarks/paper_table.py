@@ -74,8 +74,8 @@ def main(words: list[str] | None = None) -> int:
         "factor (wall time of the whole `simulate` divided by the simulated time), root mean square of the piston's "
         "deviation from the reference motion and from an accurate solution (rtol 1e-10). RK4 takes the largest stable "
         "step of 1, 2, 5 times powers of ten, the others rtol 1e-6. The paper's figures are those of its Table 1, from "
-        "another tool on another machine, with parameters that it does not give in full: its errors are of the same kind, "
-        "not of the same crane."
+        "another tool on another machine, with parameters that it does not give in full: its errors are of the same "
+        "kind, not of the same crane."
     )
     header = ("hydraulics, method", "RTF", "to the reference [m]", "to accurate [m]", "paper: RTF", "paper: RMSE [m]")
     write(Section("paper-table", "Real-time factors", "python -m benchmarks.paper_table", text, header, rows))
