@@ -312,7 +312,8 @@ class System:
             saveat: times of the result, an array or a `diffrax.SaveAt`; by default 501 equidistant points.
             rtol: relative tolerance of the error control.
             atol: absolute tolerance as a fraction of the nominal values; a tenth of `rtol` by default.
-            solver: a diffrax solver; `Rodas5P` by default.
+            solver: ``"rodas5p"`` (the default, for stiff models), ``"rk4"`` (fixed steps `dt`), ``"adams"`` (variable
+                order and step, for models that are not stiff), or a diffrax solver.
             engine: ``native`` (generated C), ``diffrax``, or ``auto``: native where it can do what is asked.
             events: whether events are handled.
             **options: see `acausal.simulation.simulate.simulate`.

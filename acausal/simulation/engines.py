@@ -16,7 +16,7 @@ from acausal.symbolic.traverse import postorder
 
 from .native import LARGEST, Given, NativeModel, Tolerances, native_model
 from .native_build import NoCompiler, compiler
-from .native_library import RESULTS, Floats, Run, Signal
+from .native_library import METHODS, RESULTS, Floats, Run, Signal
 
 if TYPE_CHECKING:
     from .solution import Solution
@@ -26,7 +26,10 @@ POINTS = 501
 ATOL = 0.1
 INVARIANT_SAFETY = 0.1
 MAX_STEPS = 1_000_000
+MAX_EXPLICIT_STEPS = 100_000_000
+"""Explicit methods take many small steps on stiff models."""
 _said: set[str] = set()
+_NAMES = {"rodas5p": "Rodas5P", "rk4": "RK4", "adams": "Adams"}
 
 
 def simulate(system: Any, t1: Any, *, engine: str = "auto", **options: Any) -> Solution:
@@ -50,9 +53,14 @@ def simulate(system: Any, t1: Any, *, engine: str = "auto", **options: Any) -> S
 
 def why_not_native(system: Any, options: Mapping[str, Any]) -> str | None:
     """Why the native engine cannot run a simulation with these options; None if it can."""
-    for name in ("solver", "stepsize_controller", "adjoint"):
+    for name in ("stepsize_controller", "adjoint"):
         if options.get(name) is not None:
             return f"`{name}=` is one of diffrax"
+    method = options.get("solver")
+    if method is not None and method not in METHODS:
+        return f"`solver=` is a diffrax solver (there are {', '.join(map(repr, METHODS))})"
+    if method not in (None, "rodas5p") and not is_concrete(list(options.values())):
+        return f"derivatives and batches of `solver={method!r}` are not there"
     if not isinstance(options.get("events", True), bool):
         return "`events=` is a diffrax event"
     saveat = options.get("saveat")
@@ -108,11 +116,15 @@ def _size(lowered: Any) -> int:
 def _native(
     system: Any, t1: Any, *, t0: Any = 0.0, parameters: Mapping[str, Any] | None = None,
     initial: Mapping[str, Any] | None = None, inputs: Mapping[str, Any] | None = None, saveat: Any = None,
-    rtol: Any = 1e-6, atol: Any = None, events: Any = True, max_steps: int = MAX_STEPS, throw: bool = True,
-    progress: bool = False, dt: Any = None, **rest: Any,
+    rtol: Any = 1e-6, atol: Any = None, events: Any = True, max_steps: int | None = None, throw: bool = True,
+    progress: bool = False, dt: Any = None, solver: str = "rodas5p", **rest: Any,
 ) -> Solution:  # fmt: skip
     """Run with the native engine."""
+    if solver == "rk4" and dt is None:
+        raise SimulationError("The method 'rk4' takes fixed steps: give the step, `simulate(..., dt=1e-3)`.")
     del events, rest
+    if max_steps is None:
+        max_steps = MAX_STEPS if solver == "rodas5p" else MAX_EXPLICIT_STEPS
     model = native_model(system)
     signals = all_signals(system, inputs)
     arguments = (t0, t1, saveat, rtol, atol, dt, dict(parameters or {}), dict(initial or {}), signals)
@@ -127,9 +139,10 @@ def _native(
     model.library()
     compiled = time.perf_counter()
     how = tolerances(system, rtol, atol, dt, max_steps)
+    how.method = solver
     started, run = model.run(t0, t1, save, given, how, check=throw)
     seconds = compiled - begin, time.perf_counter() - compiled
-    return finish(model, save, started.p, run, given.signals, seconds, t1, max_steps, throw=throw)
+    return finish(model, save, started.p, run, given.signals, seconds, t1, max_steps, method=solver, throw=throw)
 
 
 def output_times(saveat: Any, t0: float, t1: float) -> Floats:
@@ -202,7 +215,7 @@ def _signal(name: str, value: Any) -> tuple[Any, Any]:
 
 def finish(
     model: NativeModel, save: Floats, p: Floats, run: Run, signals: Sequence[Signal], seconds: tuple[float, float],
-    t1: float, max_steps: int, *, throw: bool,
+    t1: float, max_steps: int, *, method: str, throw: bool,
 ) -> Solution:  # fmt: skip
     """The solution of a concrete run; raises where it failed."""
     from .solution import Solution
@@ -211,7 +224,9 @@ def finish(
     low = system.lowered
     counts = run.counts
     stats: dict[str, Any] = {k: counts[k] for k in ("steps", "accepted", "rejected")}
-    stats |= {"rhs": 8 * counts["steps"], "jacobians": counts["accepted"], "solver": "Rodas5P", "engine": "native"}
+    if method == "rodas5p":
+        stats |= {"rhs": 8 * counts["steps"], "jacobians": counts["accepted"]}
+    stats |= {"solver": _NAMES[method], "engine": "native"}
     stats |= {"compile_seconds": seconds[0], "run_seconds": seconds[1], "t_end": run.t_end}
     z, t = run.z[: run.saved], save[: run.saved]
 

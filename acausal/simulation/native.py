@@ -19,7 +19,7 @@ from acausal.lowering.initial import EASE_ALGEBRAIC, given_starts
 from acausal.lowering.initial_numeric import solve_numeric
 
 from .native_build import build
-from .native_library import Floats, NativeLibrary, Run, Signal
+from .native_library import METHODS, Floats, NativeLibrary, Run, Signal
 
 LARGEST = 40_000
 """Expression nodes up to which a system is written out in C."""
@@ -49,6 +49,7 @@ class Tolerances:
     atol: Floats
     first_step: float = 0.0
     max_steps: int = 1_000_000
+    method: str = "rodas5p"
 
 
 @dataclass(slots=True, eq=False)
@@ -127,7 +128,7 @@ class NativeModel:
         started = self.start(t0, given, library, check)
         run = library.run(
             t0, t1, started.z0, started.p, save, rtol=how.rtol, atol=how.atol, signals=given.signals,
-            first_step=how.first_step, max_steps=how.max_steps,
+            first_step=how.first_step, max_steps=how.max_steps, method=METHODS.index(how.method),
         )  # fmt: skip
         return started, run
 

@@ -23,6 +23,10 @@ RESULTS = ("successful", "max_steps_reached", "dt_min_reached", "singular", "out
 """Names of the results of a run, by code; as diffrax calls them where it has them."""
 
 
+METHODS = ("rodas5p", "rk4", "adams")
+"""Methods by number."""
+
+
 class _Signal(ctypes.Structure):
     _fields_ = (("n", c_int), ("t", _P), ("v", _P))
 
@@ -30,7 +34,8 @@ class _Signal(ctypes.Structure):
 class _Problem(ctypes.Structure):
     _fields_ = (
         ("t0", c_double), ("t1", c_double), ("rtol", c_double), ("first_step", c_double), ("smallest", c_double),
-        ("atol", _P), ("max_steps", c_long), ("z0", _P), ("p", _P), ("signals", POINTER(_Signal)), ("index", c_void_p),
+        ("atol", _P), ("method", c_int),
+        ("max_steps", c_long), ("z0", _P), ("p", _P), ("signals", POINTER(_Signal)), ("index", c_void_p),
         ("n_save", c_long), ("save", _P), ("n_directions", c_int), ("dz0", _P), ("dp", _P), ("z_out", _P),
         ("dz_out", _P), ("z_end", _P), ("dz_end", _P), ("t_end", c_double), ("steps", c_long), ("accepted", c_long),
         ("rejected", c_long), ("pivoted", c_long), ("saved", c_long), ("stop", c_void_p),
@@ -128,7 +133,7 @@ class NativeLibrary:
     # ---- run --------------------------------------------------------------------------------------
     def run(
         self, t0: float, t1: float, z0: Floats, p: Floats, save: Floats, *, rtol: float, atol: Floats,
-        signals: Sequence[Signal] = (), first_step: float = 0.0, max_steps: int = 1_000_000,
+        signals: Sequence[Signal] = (), first_step: float = 0.0, max_steps: int = 1_000_000, method: int = 0,
         tangents: tuple[Floats, Floats] | None = None,
     ) -> Run:  # fmt: skip
         """Integrate from t0 to t1.
@@ -143,13 +148,14 @@ class NativeLibrary:
             signals: inputs.
             first_step: first step [s]; 0 to estimate one.
             max_steps: most steps, rejected ones included.
+            method: position in `METHODS`.
             tangents: of z0 (n, lanes) and p (n_p, lanes).
         """
         n_t = len(save)
         z, z_end = np.full((n_t, self.n), np.nan), np.empty(self.n)
         keep = [np.ascontiguousarray(a, float) for a in (z0, p, save, atol)]
         problem = _Problem(
-            t0=t0, t1=t1, rtol=rtol, first_step=first_step, atol=_of(keep[3]), max_steps=max_steps,
+            t0=t0, t1=t1, rtol=rtol, first_step=first_step, atol=_of(keep[3]), method=method, max_steps=max_steps,
             smallest=1e-14 * max(abs(t0), abs(t1), abs(t1 - t0)), z0=_of(keep[0]), p=_of(keep[1]), n_save=n_t,
             save=_of(keep[2]), z_out=_of(z), z_end=_of(z_end), t_end=t0,
         )  # fmt: skip

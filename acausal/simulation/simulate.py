@@ -24,6 +24,7 @@ from .jit import compiled_for, ensure_x64, inside_jit, is_traced
 from .linear_solvers import AbstractLinearSolver, DenseLU
 from .lowered import Lowered, dimensions
 from .projection import Projected, WithAlgebraic, project
+from .rk4 import RK4
 from .rodas5p import Rodas5P
 from .solution import Solution
 from .sparse import DENSE_BELOW, SparseKLU, free_factors, sparse_linear_solver
@@ -57,7 +58,7 @@ def simulate(
     saveat: Any = None,
     rtol: Any = 1e-6,
     atol: Any = None,
-    solver: diffrax.AbstractSolver[Any] | None = None,
+    solver: diffrax.AbstractSolver[Any] | str | None = None,
     engine: str = "auto",
     events: Any = True,
     max_steps: int | None = None,
@@ -86,8 +87,9 @@ def simulate(
         atol: absolute tolerance as a fraction of each variable's nominal value, a number or shape (n_x,);
             default a tenth of `rtol`. No variable's error estimate of a step exceeds
             `atol * nominal + rtol * |value|`.
-        solver: a diffrax solver; default `Rodas5P()`, which solves states and tearing variables together. Any
-            other solver integrates the states, and the tearing variables are solved in the vector field.
+        solver: a diffrax solver, or `"rodas5p"` or `"rk4"`; default `Rodas5P()`, which solves states and tearing
+            variables together. Any other integrates the states, and the tearing variables are solved in the vector
+            field.
         engine: `"diffrax"`, or `"auto"`.
         events: `True`, `False`, or a `diffrax.Event`.
         max_steps: most steps, taken and rejected together.
@@ -114,7 +116,7 @@ def simulate(
         p = (p, numbers)
         w0 = lowered.solve_algebraic(jnp.asarray(t0, float), x0, w0, p) if len(lowered.w_nominal) else w0
     n_x, _, _ = dimensions(lowered)
-    method = _with_linear_solver(Rodas5P() if solver is None else solver, lowered)
+    method = _with_linear_solver(_solver(solver), lowered)
     points, kind = _output(saveat, t0, t1)
     relative = jnp.asarray(rtol, float)
     absolute = jnp.broadcast_to(ATOL * relative if atol is None else jnp.asarray(atol, float), (n_x,))
@@ -367,6 +369,20 @@ def _follow(lowered: Lowered, t: Array, x: Array, w0: Array, p: Array) -> Array:
 def _keeps_factors(solver: Any) -> bool:
     linear = solver.linear_solver if isinstance(solver, Rodas5P) else None
     return isinstance(linear, SparseKLU) and linear.keep_factors
+
+
+def _solver(given: diffrax.AbstractSolver[Any] | str | None) -> diffrax.AbstractSolver[Any]:
+    """The solver that is meant."""
+    if given is None or given == "rodas5p":
+        return Rodas5P()
+    if given == "rk4":
+        return RK4()
+    if isinstance(given, str):
+        raise SimulationError(
+            f"The diffrax engine has no solver {given!r}: give 'rodas5p', 'rk4' or a diffrax solver, "
+            "or take engine='native' for 'adams'."
+        )
+    return given
 
 
 def _with_linear_solver(solver: Any, lowered: Lowered) -> Any:

@@ -218,3 +218,36 @@ def test_source_is_the_same_every_time_and_readable() -> None:
     assert first == second
     assert "/* z */" in first
     assert "if (" in first, "an expensive branch is behind a condition"
+
+
+@pytest.mark.parametrize("model", [Decay, Torn, Pendulum])
+def test_runge_kutta_has_order_four_and_equals_diffrax(systems: dict[type, ac.System], model: Any) -> None:
+    system = systems[model]
+    exact = system.simulate(1.0, rtol=1e-12, saveat=6, engine="native").x
+    errors = [
+        np.abs(system.simulate(1.0, solver="rk4", dt=dt, saveat=6, engine="native").x - exact).max()
+        for dt in (0.04, 0.02)
+    ]
+    assert 11 < errors[0] / errors[1] < 30
+    a, b = (system.simulate(1.0, solver="rk4", dt=0.04, saveat=6, engine=e) for e in ("native", "diffrax"))
+    np.testing.assert_allclose(a.x, b.x, rtol=1e-6, atol=1e-7)
+
+
+@pytest.mark.parametrize("model", [Decay, Torn, LinearBlock, Pendulum])
+def test_adams_follows_its_tolerance(systems: dict[type, ac.System], model: Any) -> None:
+    system = systems[model]
+    exact = system.simulate(2.0, rtol=1e-12, saveat=41, engine="native")
+    steps = []
+    for rtol in (1e-4, 1e-7, 1e-10):
+        solution = system.simulate(2.0, solver="adams", rtol=rtol, saveat=41, engine="native")
+        np.testing.assert_allclose(solution.x, exact.x, atol=30 * rtol)
+        np.testing.assert_allclose(solution.w, exact.w, atol=30 * rtol)
+        steps.append(solution.stats["steps"])
+    assert steps[2] < 5 * steps[0], "the order grows with the accuracy"
+
+
+def test_methods_are_checked(systems: dict[type, ac.System]) -> None:
+    with pytest.raises(SimulationError, match="give the step"):
+        systems[Decay].simulate(1.0, solver="rk4", engine="native")
+    with pytest.raises(SimulationError, match="no solver 'adams'"):
+        systems[Decay].simulate(1.0, solver="adams", engine="diffrax")

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ..initial import InitialProblem
     from ..parameters import ParameterProgram
 
-RUNTIME = ("acausal.h", "solver.h", "projection.h")
+RUNTIME = ("acausal.h", "solver.h", "explicit.h", "projection.h")
 TANGENTS = "AC_TANGENTS"
 
 

@@ -8,11 +8,13 @@
    Sources: Steinebach (2023), BIT Numerical Mathematics 63:27 (method); Hairer and Wanner, Solving Ordinary
    Differential Equations II, IV.7 (implementation) and IV.8 (step size); the tangents differentiate the step itself. */
 
+enum { AC_RODAS5P, AC_RK4, AC_ADAMS };
 enum { AC_DONE, AC_MAX_STEPS, AC_SMALLEST_STEP, AC_SINGULAR, AC_NO_MEMORY, AC_STOPPED };
 
 typedef struct {
     double t0, t1, rtol, first_step, smallest;
     const double *atol;            /* (n) absolute */
+    int method;                    /* AC_RODAS5P, AC_RK4 (fixed steps of first_step), AC_ADAMS */
     long max_steps;
     const double *z0, *p;
     const ac_signal *signals;
@@ -297,6 +299,16 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
     return AC_DONE;
 }
 
+#include "explicit.h"
+
+static int ac_explicit(ac_problem *q, ac_work *w) {
+    ac_explicit_work *e = calloc(1, sizeof *e);
+    if (!e) return AC_NO_MEMORY;
+    const int result = q->method == AC_RK4 ? ac_fixed_steps(q, w, e) : ac_adams(q, w, e);
+    free(e);
+    return result;
+}
+
 AC_EXPORT long acausal_size(int which) {
     const long sizes[] = {AC_N, AC_NX, AC_NP, AC_NI, AC_NIZ, AC_NALL, AC_LANES, sizeof(ac_problem)};
     return sizes[which];
@@ -321,7 +333,7 @@ AC_EXPORT int acausal_run(ac_problem *q) {
         memcpy(d->dz, q->dz0, sizeof d->dz);
     }
 #endif
-    const int result = ac_integrate(q, w, tangents);
+    const int result = q->method == AC_RODAS5P ? ac_integrate(q, w, tangents) : ac_explicit(q, w);
     memcpy(q->z_end, w->z, sizeof w->z);
 #ifdef AC_TANGENTS
     if (tangents) memcpy(q->dz_end, ((ac_tangent_work *)tangents)->dz, sizeof(ac_vector) * AC_N);
