@@ -196,8 +196,8 @@ class Problem:
             inputs={**arrays["tables"], **group.functions} or None, saveat=arrays["t"], throw=False,
             **self.options,
         )  # fmt: skip
-        low, ids = solution.lowered, jnp.asarray(group.ids)
-        y = jax.vmap(lambda t, x, w: low.observe(t, x, w, solution.p)[ids])(solution.t, solution.x, solution.w)
+        observe: Any = solution.lowered.observe
+        y = jax.vmap(lambda t, x, w: observe(t, x, w, solution.p, group.ids))(solution.t, solution.x, solution.w)
         simulated = jnp.concatenate([y[rows, k] for k, rows in enumerate(arrays["rows"])])
         return simulated - jnp.concatenate(arrays["y"])
 
