@@ -79,7 +79,7 @@ def calibrate(
     shared = {"parameters": dict(parameters or {}), "initial": dict(initial or {})}
     experiments = tuple(_with(e, sigma, **shared) for e in experiments)
     settings = {"rtol": rtol, "atol": atol, "engine": engine, "max_steps": max_steps, **options}
-    problem = Problem(system, experiments, free, start or {}, forward(system, settings))
+    problem = Problem(system, experiments, free, start or {}, settings)
     begins = _begins(problem, starts, seed)
     search = Search(problem, float(tolerance), int(iterations))
     noise = Noise(problem)
@@ -101,18 +101,6 @@ def _with(experiment: Any, sigma: Any, parameters: dict[str, float], initial: di
         parameters={**parameters, **experiment.parameters},
         initial={**initial, **experiment.initial},
     )
-
-
-def forward(system: System, settings: dict[str, Any]) -> dict[str, Any]:
-    """Options of `simulate` for forward sensitivities: the diffrax engine wants to know the direction."""
-    from ..simulation.engines import why_not_native
-
-    native = settings["engine"] != "diffrax" and why_not_native(system, settings) is None
-    if native or settings["engine"] == "native" or "adjoint" in settings:
-        return settings
-    import diffrax
-
-    return {**settings, "engine": "diffrax", "adjoint": diffrax.ForwardMode()}
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -191,15 +191,27 @@ class Problem:
         parameters, initial = dict(arrays["parameters"]), dict(arrays["initial"])
         for (target, is_start, _), index in zip(group.own, arrays["own"], strict=True):
             (initial if is_start else parameters)[target] = values[index]
+        inputs = {**arrays["tables"], **group.functions} or None
         solution = self.system.simulate(
-            arrays["t"][-1], t0=arrays["t0"], parameters=parameters, initial=initial,
-            inputs={**arrays["tables"], **group.functions} or None, saveat=arrays["t"], throw=False,
-            **self.options,
+            arrays["t"][-1], t0=arrays["t0"], parameters=parameters, initial=initial, saveat=arrays["t"], throw=False,
+            **_forward(self.system, {**self.options, "inputs": inputs}),
         )  # fmt: skip
         observe: Any = solution.lowered.observe
         y = jax.vmap(lambda t, x, w: observe(t, x, w, solution.p, group.ids))(solution.t, solution.x, solution.w)
         simulated = jnp.concatenate([y[rows, k] for k, rows in enumerate(arrays["rows"])])
         return simulated - jnp.concatenate(arrays["y"])
+
+
+def _forward(system: System, options: dict[str, Any]) -> dict[str, Any]:
+    """Options of `simulate` for forward sensitivities: the diffrax engine wants to know the direction."""
+    from ..simulation.engines import why_not_native
+
+    native = options["engine"] != "diffrax" and why_not_native(system, options) is None
+    if native or options["engine"] == "native" or "adjoint" in options:
+        return options
+    import diffrax
+
+    return {**options, "engine": "diffrax", "adjoint": diffrax.ForwardMode()}
 
 
 def value_program(problem: Problem) -> Callable[..., Any]:

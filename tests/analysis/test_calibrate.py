@@ -12,7 +12,7 @@ from matplotlib import pyplot
 from scipy import stats
 
 import acausal as ac
-from acausal.analysis.calibrate import Search, forward
+from acausal.analysis.calibrate import Search
 from acausal.analysis.priors import decode
 from acausal.analysis.residuals import Problem
 from acausal.errors import SimulationError, UnknownNameError
@@ -78,7 +78,7 @@ def test_covariance_is_the_inverse_of_the_fisher_matrix(oscillator, fit):
 
 
 def test_jacobian_is_the_derivative_of_the_residual(oscillator, clean):
-    settings = forward(oscillator, {"rtol": 1e-9, "engine": "auto", "max_steps": 10_000})
+    settings = {"rtol": 1e-9, "engine": "auto", "max_steps": 10_000}
     data = ac.Experiment(noisy(clean), sigma=SIGMA)
     problem = Problem(oscillator, [data], {**FREE, "s": (0.5, 1.5)}, {}, settings)
     values, sigma = np.array([4.0, 0.3, 1.0]), np.ones(problem.size)
@@ -215,6 +215,24 @@ def test_experiments_with_own_signals_inputs_and_start_values():
         found.simulate("fill")
 
 
+def test_an_input_that_is_a_function():
+    """The native engine does not take it; the fit finds its way."""
+    system = ac.compile(Tank(), inputs=("u",))
+    t = np.linspace(0.0, 3.0, 12)
+    exact = (0.8 * np.sin(t) - np.cos(t) + np.exp(-0.8 * t)) / (1 + 0.64) + np.exp(-0.8 * t)
+    data = ac.Experiment({"t": t, "V": exact}, inputs={"u": jnp.sin}, sigma=1e-3)
+    found = ac.calibrate(system, data, {"k": (0.1, 2.0)}, rtol=1e-8)
+    assert found.parameters["k"] == pytest.approx(0.8, rel=1e-5)
+
+
+@pytest.mark.slow
+def test_engines_find_the_same(oscillator, clean):
+    data = noisy(clean)
+    one, other = (ac.calibrate(oscillator, data, FREE, sigma=SIGMA, engine=e) for e in ("native", "diffrax"))
+    assert one.parameters == pytest.approx(other.parameters, rel=1e-5)
+    assert np.allclose(one.covariance, other.covariance, rtol=1e-4)
+
+
 def test_signals_at_times_of_their_own(oscillator, clean):
     few = TIMES[::7]
     data = {"s": (TIMES, clean["s"]), "v": (few, clean["v"][::7])}
@@ -317,7 +335,7 @@ def test_samples_that_are_nan_can_be_dropped(oscillator, clean):
 
 
 def test_search_holds_coordinates(oscillator, clean):
-    settings = forward(oscillator, {"rtol": 1e-6, "engine": "auto", "max_steps": 10_000})
+    settings = {"rtol": 1e-6, "engine": "auto", "max_steps": 10_000}
     problem = Problem(oscillator, [ac.Experiment(clean, sigma=SIGMA, name="one")], FREE, {}, settings)
     search = Search(problem, 1e-6, 50)
     z0 = np.array([f.prior.internal(f.start) for f in problem.free])

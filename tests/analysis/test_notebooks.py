@@ -27,7 +27,8 @@ def test_notebook_runs(path, monkeypatch):
     monkeypatch.setenv("MPLBACKEND", "agg")
     monkeypatch.setenv("JAX_ENABLE_X64", "1")
     book = nbformat.read(path, as_version=4)
-    nbclient.NotebookClient(book, timeout=300, kernel_name="python3", resources={"metadata": {"path": FOLDER}}).execute()
+    where = {"metadata": {"path": FOLDER}}
+    nbclient.NotebookClient(book, timeout=300, kernel_name="python3", resources=where).execute()
 
 
 def test_there_are_notebooks():
