@@ -21,8 +21,8 @@ from acausal.lowering.initial_numeric import solve_numeric
 from .native_build import build
 from .native_library import METHODS, Floats, NativeLibrary, Run, Signal
 
-LARGEST = 40_000
-"""Expression nodes up to which a system is written out in C."""
+LARGEST = 3_000
+"""Operations up to which a system is written out in C: compiling grows faster than their number."""
 WIDTHS = (1, 2, 4, 8)
 """Numbers of directions that a library is compiled for; more directions take several runs."""
 
