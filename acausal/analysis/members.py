@@ -64,15 +64,27 @@ class Result:
 def run_members(system: System, job: Job, members: Sequence[Member]) -> list[Result]:
     """Simulate some members one after the other; a failing one is a result too."""
     results: list[Result] = []
+    columns = _state_columns(system, job.names)
     for member in members:
         try:
             solution = system.simulate(job.t1, parameters=member.parameters, initial=member.initial, **job.options)
         except AcausalError as error:
             results.append(Result(member.index, None, None, str(error)))
             continue
-        values = np.stack([np.asarray(solution[name]) for name in job.names], axis=1)
-        results.append(Result(member.index, np.asarray(solution.t), values))
+        kept = [
+            np.asarray(solution[name]) if at is None else at[1] * np.asarray(solution.x)[:, at[0]]
+            for name, at in zip(job.names, columns, strict=True)
+        ]
+        results.append(Result(member.index, np.asarray(solution.t), np.stack(kept, axis=1)))
     return results
+
+
+def _state_columns(system: System, names: Sequence[str]) -> list[tuple[int, float] | None]:
+    """For each variable that is a state, or an alias of one, its column and sign: it needs no evaluation."""
+    representative, sign = system.observed_ids
+    states = {int(v): k for k, v in enumerate(system.stages.schedule.states)}
+    ids = [int(np.ravel(system.index_of(name))[0]) for name in names]
+    return [(states[r], float(sign[i])) if (r := int(representative[i])) in states else None for i in ids]
 
 
 def run_elsewhere(recipe: bytes, job: bytes, members: Sequence[Member]) -> list[Result]:
