@@ -58,7 +58,7 @@ def solve_numeric(
             return given.x, given.w, np.zeros(0)
         given.fixed[:] = True
     if compiled is None:
-        function = _function(problem, t0, p, given.ids, given.wanted)
+        function = conditions_of(problem, t0, p, given.ids, given.wanted)
     else:
         function = _compiled(compiled, low.n_w + low.n_g, given.wanted), np.ones(low.n_x, bool)
     if function is None:
@@ -87,7 +87,7 @@ def solve_numeric(
     return found[: low.n_x], found[low.n_x :], left
 
 
-def _function(
+def conditions_of(
     problem: InitialProblem, t0: float, p: Floats, ids: Ints, wanted: Floats
 ) -> tuple[Function, np.ndarray] | None:
     """Residuals of all conditions with their Jacobian, and which states there is a reason to move."""
@@ -244,6 +244,21 @@ def _step(r: Floats, j: Any, size: Floats) -> Floats | None:
     scaled, rhs = scaled[used], -r[used] / size[used]
     normal = (scaled @ scaled.T + DAMPING * sparse.eye_array(len(used))).tocsc()
     return scaled.T @ splu(normal).solve(rhs)
+
+
+def least_change(j: Any, ease: Floats, rate: Floats) -> Floats:
+    """Change of the unknowns, in units of `ease`, that undoes the rates (m, k) of the conditions: (n, k), the least.
+
+    Args:
+        j: Jacobian (m, n), dense or sparse.
+        ease: scale of the unknowns (n,).
+        rate: how the conditions move.
+    """
+    matrix = _times(j, ease)
+    size = _largest(matrix)
+    size = np.where(size > 0, size, 1.0)
+    found = [_step(rate[:, k], matrix, size) for k in range(rate.shape[1])]
+    return np.stack([np.zeros(matrix.shape[1]) if f is None else f for f in found], axis=1)
 
 
 def _homotopy(system: _Part, z: Floats) -> Floats:

@@ -35,9 +35,14 @@ class NumericRun:
     """
 
     def __init__(
-        self, lowered: Lowered, t: float, x: Floats, w: Floats, p: Floats, free: Ints, directions: Any = None
-    ) -> None:
-        """Derivatives with respect to the states `free` and all of w, or along the columns of `directions` of z."""
+        self, lowered: Lowered, t: float, x: Floats, w: Floats, p: Floats, free: Ints, directions: Any = None,
+        p_directions: Any = None,
+    ) -> None:  # fmt: skip
+        """Derivatives with respect to the states `free` and all of w, or along the columns of `directions` of z.
+
+        With `p_directions` (n_p, n_y) the parameters move too.
+        """
+        self.p_directions = p_directions
         self.lowered = lowered
         self.t = t
         self.p = p
@@ -86,7 +91,8 @@ class NumericRun:
             if node.op == "time":
                 return self.t, None
             if node.op == "par":
-                return self.p[par_rows[:, node.value]], None
+                moved = None if self.p_directions is None else self.p_directions[par_rows[:, node.value]]
+                return self.p[par_rows[:, node.value]], moved
             ids = rows[:, node.value]
             return self.value[ids], self.gradient[ids]
 

@@ -45,12 +45,28 @@ class ParameterProgram:
             ids, _ = self.flat.names.find(name, parameter=True)
             overridden[ids] = True
             values = _put(values, ids.ravel(), xp.ravel(xp.broadcast_to(xp.asarray(value, float), ids.shape)), xp)
+        return self.completed(values, overridden, xp)
+
+    def completed(self, values: Any, given: Any, xp: Any = np) -> Any:
+        """All parameters from those in `values`: dependent ones evaluated, unless the mask `given` has them."""
         for assignment in self.ordered:
-            keep = ~overridden[assignment.targets]
+            keep = ~given[assignment.targets]
             if keep.any():
                 part = assignment if keep.all() else _select(assignment, keep)
                 values = _put(values, part.targets, evaluate_assignment(part, values, xp), xp)
         return values
+
+    def tangents(self, p: Floats, given: Any, dp: Floats) -> Floats:
+        """Tangents of start values (n, k) from those of the given parameters; `dp` (n_p, k) is completed in place."""
+        for assignment in self.ordered:
+            keep = ~given[assignment.targets]
+            if keep.any():
+                part = assignment if keep.all() else _select(assignment, keep)
+                dp[part.targets] = _moved(part, p, dp)
+        starts = np.zeros((len(self.flat.start), dp.shape[1]))
+        for assignment in self.flat.start_assignments:
+            starts[assignment.targets] = _moved(assignment, p, dp)
+        return starts
 
     def generic(self, random: np.random.Generator) -> Floats:
         """Parameter values in general position near the defaults (n_p,), dependent ones evaluated."""
@@ -90,6 +106,19 @@ def evaluate_assignment(assignment: Assignment, p: Any, xp: Any) -> Any:
 
     with np.errstate(all="ignore"):
         return xp.broadcast_to(evaluate((assignment.expression,), leaf, xp)[0], assignment.targets.shape)
+
+
+def _moved(assignment: Assignment, p: Floats, dp: Floats) -> Any:
+    """Tangents of an assignment's targets."""
+    from .numeric import evaluate_dual
+
+    def leaf(node: Expr) -> Any:
+        rows = assignment.par_rows[:, node.value]
+        return p[rows], dp[rows]
+
+    with np.errstate(all="ignore"):
+        moved = evaluate_dual((assignment.expression,), leaf)[0][1]
+    return 0.0 if moved is None else moved
 
 
 def _ordered(flat: FlatModel) -> list[Assignment]:

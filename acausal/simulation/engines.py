@@ -12,9 +12,8 @@ import numpy as np
 from acausal.errors import SimulationError, UnknownNameError, nearest
 from acausal.lowering.c.text import NotInC
 from acausal.lowering.numeric import is_concrete
-from acausal.symbolic.traverse import postorder
 
-from .native import LARGEST, Given, NativeModel, Tolerances, native_model
+from .native import Given, NativeModel, Tolerances, native_model
 from .native_build import NoCompiler, compiler
 from .native_library import METHODS, RESULTS, Floats, Run, Signal
 
@@ -88,8 +87,6 @@ def _find_out(system: Any) -> str | None:
     low = system.lowered
     if not low.n_x:
         return "the model has no states"
-    if _size(low) > LARGEST:
-        return f"the model has more than {LARGEST} operations"
     try:
         compiler()
         native_model(system)
@@ -101,16 +98,6 @@ def _find_out(system: Any) -> str | None:
     except NotInC as error:
         return str(error)
     return None
-
-
-def _size(lowered: Any) -> int:
-    """Operations of the written-out system."""
-    total = 0
-    for group in lowered.schedule.groups:
-        kernel = group.kernel
-        roots = [e for _, e in kernel.steps] + list(kernel.residuals) + [e for line in kernel.matrix for e in line]
-        total += group.size * (len(postorder(roots)) + len(kernel.matrix) ** 3 // 10)
-    return total
 
 
 def _native(

@@ -16,12 +16,14 @@ from acausal.errors import InitializationError
 from acausal.lowering.bounds import check_parameters
 from acausal.lowering.c.generate import CSource, to_c
 from acausal.lowering.initial import EASE_ALGEBRAIC, given_starts
-from acausal.lowering.initial_numeric import solve_numeric
+from acausal.lowering.initial_numeric import conditions_of, least_change, solve_numeric
+from acausal.lowering.numeric import NumericRun
+from acausal.symbolic.traverse import postorder
 
 from .native_build import build
 from .native_library import METHODS, Floats, NativeLibrary, Run, Signal
 
-LARGEST = 3_000
+LARGEST = 1_000
 """Operations up to which a system is written out in C: compiling grows faster than their number."""
 WIDTHS = (1, 2, 4, 8)
 """Numbers of directions that a library is compiled for; more directions take several runs."""
@@ -76,7 +78,10 @@ class NativeModel:
         with self.lock:
             if width not in self.libraries:
                 defines = ("AC_TANGENTS", f"AC_LANES={width}") if width else ()
-                self.libraries[width] = NativeLibrary(build(self.source, defines), bool(width))
+                low = self.system.lowered
+                nominal = np.concatenate([low.x_nominal, low.w_nominal])
+                made = build(self.source, defines)
+                self.libraries[width] = NativeLibrary(made, bool(width), self.source.tables, nominal)
             return self.libraries[width]
 
     # ---- start ------------------------------------------------------------------------------------
@@ -96,11 +101,15 @@ class NativeModel:
             p[ids] = np.broadcast_to(np.asarray(value, float), ids.shape)
         for k, (times, values) in enumerate(given.signals):
             p[program.flat.n_par + k] = np.interp(t0, times, values)
-        library.parameters(mask, p)
-        starts = program.flat.start.copy()
-        library.starts(p, starts)
+        if self.large:
+            p = program.completed(p, mask.astype(bool))
+            starts = program.starts(p, np)
+        else:
+            library.parameters(mask, p)
+            starts = program.flat.start.copy()
+            library.starts(p, starts)
         overrides = system._overrides(given.initial, np)
-        own = _own_conditions(problem, overrides)
+        own = not self.large and _own_conditions(problem, overrides)
         conditions = (lambda z: library.conditions(p, t0, z)) if own else None
         found = solve_numeric(problem, t0, p, starts, overrides, conditions)
         if found is None:
@@ -111,6 +120,11 @@ class NativeModel:
         else:
             check_parameters(program.flat, p)
         return Started(np.concatenate([x0, w0]), p, left, mask)
+
+    @property
+    def large(self) -> bool:
+        """Whether families are loops."""
+        return bool(self.source.tables)
 
     def parameter_ids(self, name: str) -> Any:
         """Numbers of a parameter (of an array: of all elements)."""
@@ -171,11 +185,7 @@ class NativeModel:
             if seed.kind != "initial":
                 first = program.flat.n_par if seed.kind == "input" else 0
                 dp[first + np.array(seed.indices), k] = 1.0
-        library.parameters_tangent(started.mask, started.p, dp)
-        d_starts = np.zeros((len(program.flat.start), lanes))
-        library.starts_tangent(started.p, dp, d_starts)
-        starts = program.flat.start.copy()
-        library.starts(started.p, starts)
+        d_starts, starts = self._starts_tangent(library, started, dp)
         overrides = system._overrides(given.initial, np)
         if not _own_conditions(problem, overrides):
             raise InitializationError(
@@ -194,19 +204,49 @@ class NativeModel:
             for index, sign_of in zip(seed.indices, seed.signs, strict=True) if seed.kind == "initial" else ():
                 dz[position[index]] = 0.0
                 dz[position[index], k] = sign_of
-        _, j = library.conditions(started.p, t0, started.z0)
-        rate = library.conditions_tangent(started.p, dp, t0, started.z0, dz)
+        j, rate = self._conditions_tangent(library, t0, started, dz, dp)
         n_w, n_g = low.n_w, low.n_g
         rate[n_w + n_g : n_w + n_g + len(problem.targets)] -= d_wanted
         fixed = given_at.fixed if given_at.conditions else np.ones(low.n_x, bool)
         free = np.concatenate([np.flatnonzero(~fixed), low.n_x + np.arange(n_w)])
         ease = np.concatenate([problem.ease, EASE_ALGEBRAIC * low.w_nominal])[free]
         if len(free) and len(rate):
-            matrix = j[:, free] * ease
-            size = np.abs(matrix).max(axis=1, initial=0.0)
-            size = np.where(size > 0, size, 1.0)[:, None]
-            dz[free] -= ease[:, None] * np.linalg.lstsq(matrix / size, rate / size, rcond=1e-11)[0]
+            dz[free] += ease[:, None] * least_change(j[:, free], ease, rate)
         return dz, dp
+
+    def _starts_tangent(self, library: NativeLibrary, started: Started, dp: Floats) -> tuple[Floats, Floats]:
+        """Tangents of the start values and the values; `dp` is completed in place."""
+        program = self.system.program
+        if self.large:
+            return program.tangents(started.p, started.mask.astype(bool), dp), program.starts(started.p, np)
+        library.parameters_tangent(started.mask, started.p, dp)
+        d_starts = np.zeros((len(program.flat.start), library.lanes))
+        library.starts_tangent(started.p, dp, d_starts)
+        starts = program.flat.start.copy()
+        library.starts(started.p, starts)
+        return d_starts, starts
+
+    def _conditions_tangent(
+        self, library: NativeLibrary, t0: float, started: Started, dz: Floats, dp: Floats
+    ) -> tuple[Any, Floats]:
+        """Jacobian of the start's conditions with respect to z, and their tangents (n_i, lanes)."""
+        if not self.large:
+            slope = library.conditions(started.p, t0, started.z0)[1]
+            return slope, library.conditions_tangent(started.p, dp, t0, started.z0, dz)
+        problem = self.system.initial
+        low = problem.lowered
+        x, w = started.z0[: low.n_x], started.z0[low.n_x :]
+        run = NumericRun(low, t0, x, w, started.p, np.arange(low.n_x), dz, dp)
+        extra = run.families(problem.families)[1]
+        rate = np.concatenate([run.residual[1], run.gradient[problem.targets], extra])
+        if not len(rate):
+            return np.zeros((0, low.n_x + low.n_w)), rate
+        found = conditions_of(problem, t0, started.p, problem.targets, np.zeros(len(problem.targets)))
+        if found is None:
+            raise InitializationError(
+                "the start of this model is too large for the native engine's derivatives; take engine='diffrax'"
+            )
+        return found[0](started.z0)[1], rate
 
     # ---- what follows from the states -------------------------------------------------------------
     def observe(self, t: Floats, z: Floats, p: Floats, signals: Sequence[Signal]) -> Floats:
@@ -231,6 +271,16 @@ class Seed:
     signs: tuple[float, ...]
 
 
+def operations(lowered: Any) -> int:
+    """Operations of the written-out system."""
+    total = 0
+    for group in lowered.schedule.groups:
+        kernel = group.kernel
+        roots = [e for _, e in kernel.steps] + list(kernel.residuals) + [e for line in kernel.matrix for e in line]
+        total += group.size * (len(postorder(roots)) + len(kernel.matrix) ** 3 // 10)
+    return total
+
+
 def _own_conditions(problem: Any, overrides: Mapping[int, Any]) -> bool:
     """Whether the conditions of the start are those that were compiled: further fixed starts are of states only."""
     states = set(problem.lowered.schedule.states.tolist())
@@ -245,6 +295,11 @@ def native_model(system: Any) -> NativeModel:
     """
     if "native" not in system.cache:
         flat = system.stages.flat
-        source = to_c(system.program, system.initial, lambda v: flat.name(v) if v < flat.n_total else "")
+        loops = operations(system.lowered) > LARGEST
+
+        def label(v: int) -> str:
+            return flat.name(v) if v < flat.n_total else ""
+
+        source = to_c(system.program, system.initial, label, loops=loops)
         system.cache["native"] = NativeModel(system, source)
     return system.cache["native"]

@@ -35,7 +35,8 @@ class _Problem(ctypes.Structure):
     _fields_ = (
         ("t0", c_double), ("t1", c_double), ("rtol", c_double), ("first_step", c_double), ("smallest", c_double),
         ("atol", _P), ("method", c_int),
-        ("max_steps", c_long), ("z0", _P), ("p", _P), ("signals", POINTER(_Signal)), ("index", c_void_p),
+        ("max_steps", c_long), ("z0", _P), ("p", _P), ("signals", POINTER(_Signal)),
+        ("index", c_void_p), ("nominal", _P),
         ("n_save", c_long), ("save", _P), ("n_directions", c_int), ("dz0", _P), ("dp", _P), ("z_out", _P),
         ("dz_out", _P), ("z_end", _P), ("dz_end", _P), ("t_end", c_double), ("steps", c_long), ("accepted", c_long),
         ("rejected", c_long), ("pivoted", c_long), ("saved", c_long), ("stop", c_void_p),
@@ -72,7 +73,10 @@ class NativeLibrary:
         start_rows, start_columns: pattern of the derivatives of the start's conditions.
     """
 
-    def __init__(self, path: Path, tangents: bool) -> None:
+    def __init__(self, path: Path, tangents: bool, tables: Sequence[Any] = (), nominal: Any = None) -> None:
+        self.tables = list(tables)
+        self.index = (c_void_p * max(len(self.tables), 1))(*(a.ctypes.data for a in self.tables))
+        self.nominal = None if nominal is None else np.ascontiguousarray(nominal, float)
         self.library = ctypes.CDLL(str(path))
         lib = self.library
         lib.acausal_size.restype = c_long
@@ -80,17 +84,23 @@ class NativeLibrary:
         self.n, self.n_x, self.n_p, self.n_i, n_iz, self.n_all, self.lanes, size = sizes
         if size != ctypes.sizeof(_Problem):
             raise AcausalError("the compiled model and this version of acausal do not fit; empty the cache folder")
+        self.tangents = tangents
+        lib.acausal_run.argtypes = (POINTER(_Problem),)
+        lib.acausal_observe.argtypes = (_P, POINTER(_Signal), c_void_p, c_long, _P, _P, _P)
+        if not self.tables:
+            self._bind_start(n_iz)
+
+    def _bind_start(self, n_iz: int) -> None:
+        """Functions of the parameters and the start, that systems which are written out have."""
+        lib, tangents = self.library, self.tangents
         lib.acausal_start_pattern.restype = POINTER(c_int)
         self.start_rows, self.start_columns = (
             np.ctypeslib.as_array(lib.acausal_start_pattern(k), (max(n_iz, 1),))[:n_iz].copy() for k in (0, 1)
         )
-        self.tangents = tangents
-        lib.acausal_run.argtypes = (POINTER(_Problem),)
         lib.acausal_parameters.argtypes = (c_void_p, _P)
         lib.acausal_starts.argtypes = (_P, _P)
         lib.acausal_conditions.argtypes = (_P, c_double, _P, _P, _P)
-        lib.acausal_observe.argtypes = (_P, POINTER(_Signal), c_long, _P, _P, _P)
-        for name in ("parameters", "starts", "conditions", "observe"):
+        for name in ("parameters", "starts", "conditions"):
             getattr(lib, f"acausal_{name}").restype = None
         if tangents:
             lib.acausal_parameters_tangent.argtypes = (c_void_p, _P, _P)
@@ -161,6 +171,9 @@ class NativeLibrary:
         )  # fmt: skip
         held = _signals(signals)
         problem.signals = held[0]
+        problem.index = ctypes.addressof(self.index)
+        if self.nominal is not None:
+            problem.nominal = _of(self.nominal)
         dz = dz_end = None
         if tangents is not None:
             dz0, dp = (np.ascontiguousarray(a, float) for a in tangents)
@@ -175,7 +188,8 @@ class NativeLibrary:
         out = np.full((len(t), self.n_all), np.nan)
         t, z = np.ascontiguousarray(t, float), np.ascontiguousarray(z, float)
         held = _signals(signals)
-        self.library.acausal_observe(_of(p), held[0], len(t), _of(t), _of(z), _of(out))
+        if self.library.acausal_observe(_of(p), held[0], self.index, len(t), _of(t), _of(z), _of(out)):
+            raise MemoryError("no memory to evaluate all variables")
         return out
 
 

@@ -11,18 +11,30 @@ import pytest
 
 import acausal as ac
 from acausal import SimulationError
-from acausal.simulation import engines
+from acausal.simulation import engines, native
 from acausal.simulation.native import native_model
 
 from .models import Balanced, Branches, Decay, Driven, LinearBlock, Pendulum, Torn
 
 TIGHT = 1e-11
 MODELS = [Decay, Balanced, Torn, LinearBlock, Pendulum, Branches]
+LOOPED = [Decay, Balanced, Torn, LinearBlock, Branches, Driven]
 
 
 @pytest.fixture(scope="module")
 def systems() -> dict[type, ac.System]:
     return {model: ac.compile(model()) for model in [*MODELS, Driven]}
+
+
+@pytest.fixture(scope="module")
+def looped() -> dict[type, ac.System]:
+    """The same models with families as loops, as large models are."""
+    made = {model: ac.compile(model()) for model in LOOPED}
+    before, native.LARGEST = native.LARGEST, 0
+    for system in made.values():
+        assert native_model(system).large
+    native.LARGEST = before
+    return made
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -32,6 +44,29 @@ def test_both_engines_agree(systems: dict[type, ac.System], model: Any) -> None:
     assert native.stats["engine"] == "native"
     for name in native.names:
         np.testing.assert_allclose(native[name], other[name], rtol=3e-7, atol=3e-7, err_msg=name)
+
+
+@pytest.mark.parametrize("model", LOOPED)
+def test_loops_give_the_same(systems: dict[type, ac.System], looped: dict[type, ac.System], model: Any) -> None:
+    inputs = {"u": (np.array([0.0, 0.4, 2.0]), np.array([0.0, 1.0, -0.5]))} if model is Driven else None
+    until = 0.08 if model is Branches else 1.0  # rounding decides about the steps across a jump
+    a, b = (s[model].simulate(until, inputs=inputs, rtol=1e-9, saveat=21, engine="native") for s in (systems, looped))
+    for name in a.names:
+        np.testing.assert_allclose(a[name], b[name], rtol=1e-8, atol=1e-10, err_msg=name)
+
+
+@pytest.mark.parametrize("model", LOOPED[:-1])
+def test_gradients_of_loops(systems: dict[type, ac.System], looped: dict[type, ac.System], model: Any) -> None:
+    names = list(systems[model].parameters)
+
+    def states(system: ac.System, v: Any) -> Any:
+        given = dict(zip(names, v, strict=True))
+        until = 0.08 if model is Branches else 0.5
+        return system.simulate(until, parameters=given, rtol=1e-8, saveat=5, engine="native").x
+
+    v = jnp.array([systems[model].parameters[n] for n in names])
+    a, b = (jax.jacfwd(lambda v, s=s: states(s[model], v))(v) for s in (systems, looped))
+    np.testing.assert_allclose(a, b, rtol=1e-9, atol=1e-11)
 
 
 def test_closed_form(systems: dict[type, ac.System]) -> None:

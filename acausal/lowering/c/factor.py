@@ -155,7 +155,7 @@ def factor_lines(plan: Factorisation, scale: Floats) -> list[str]:
         plan: the pattern.
         scale: nominal values of the unknowns (n,): pivots are compared with the row in these units.
     """
-    lines = ["double big; int bad = 0;"]
+    lines = ["double big; int bad = 0; (void)m;"]
     upper: dict[int, list[tuple[int, int]]] = {}
     for i in range(plan.n):
         place = {int(plan.indices[e]): e for e in range(plan.indptr[i], plan.indptr[i + 1])}
@@ -189,7 +189,7 @@ def _largest(sizes: list[str]) -> str:
 
 def solve_lines(plan: Factorisation, kind: str) -> list[str]:
     """Body of ``void ac_solve(const double *F, kind *b)``, in place."""
-    lines: list[str] = []
+    lines = ["(void)m;"]
     for i in range(plan.n):
         terms = "".join(f" - F[{e}] * y{plan.indices[e]}" for e in range(plan.indptr[i], plan.diagonal[i]))
         lines.append(f"{kind} y{i} = b[{plan.rows[i]}]{terms};")

@@ -3,28 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy import sparse
 
-from ...simulation import rodas5p_tableau as tableau
 from ...symbolic.expr import ZERO, Expr, par
 from ...symbolic.jacobian import Row
 from ...symbolic.traverse import substitute
 from .emit import Hoisted, Writer
 from .factor import Factorisation, factor_lines, plan_factors, solve_lines
+from .large import large_file
 from .straight import TIME_COLUMN, Straight, family_residuals, reduce_strength, write_out
-from .text import number
+from .tableau import tableau_lines
+from .text import NotInC, array, braces
 
 if TYPE_CHECKING:
     from ...language.flat_model import Assignment
     from ..initial import InitialProblem
     from ..parameters import ParameterProgram
 
-RUNTIME = ("acausal.h", "solver.h", "explicit.h", "projection.h")
+RUNTIME = ("acausal.h", "solver.h", "explicit.h", "projection.h", "families.h")
 TANGENTS = "AC_TANGENTS"
 
 
@@ -35,10 +36,12 @@ class CSource:
     Attributes:
         text: the file of this model.
         runtime: the fixed files that it includes, by name.
+        tables: index rows (int32) that the compiled code of a large system is given.
     """
 
     text: str
     runtime: dict[str, str]
+    tables: list[Any] = field(default_factory=list[Any])
 
     def __str__(self) -> str:
         return self.text
@@ -50,17 +53,29 @@ def runtime_files() -> dict[str, str]:
     return {name: (folder / name).read_text(encoding="utf-8") for name in RUNTIME}
 
 
-def to_c(program: ParameterProgram, problem: InitialProblem, labels: Callable[[int], str] | None = None) -> CSource:
+def to_c(
+    program: ParameterProgram,
+    problem: InitialProblem,
+    labels: Callable[[int], str] | None = None,
+    *,
+    loops: bool = False,
+) -> CSource:
     """C source of a compiled system.
 
     Args:
         program: its parameters.
         problem: its initialization, with the lowered equations.
         labels: name of a variable by number, for comments.
+        loops: write families as loops, for systems that are too large to be written out.
 
     Raises:
-        NotInC: the model calls Python functions.
+        NotInC: the model calls Python functions; or it is large and has retained constraints.
     """
+    if loops:
+        if problem.lowered.n_g:
+            raise NotInC("a large model with retained constraints is left to the diffrax engine")
+        text, tables = large_file(problem.lowered, program.flat.n_par, len(program.flat.inputs))
+        return CSource(text, runtime_files(), tables)
     return CSource(_Small(program, problem, labels).file(), runtime_files())
 
 
@@ -142,7 +157,7 @@ class _Small:
         body = ["AC_UNUSED const double *p = m->p, *c = m->c;"]
         if tangents:
             body.append("AC_UNUSED const ac_vector *dp = m->dp, *dc = m->dc;")
-        return _braces(head, [*body, *writer.function(values, tangents)])
+        return braces(head, [*body, *writer.function(values, tangents)])
 
     def functions(self) -> list[str]:
         """Field, constraints, conditions of the start, with their derivatives."""
@@ -185,10 +200,10 @@ class _Small:
         values = [(f"c[{i}]", e) for i, e in enumerate(self.hoisted.nodes)]
         writer = Writer(self.straight, self._leaf, self._tangent if tangents else None)
         if not tangents:
-            return _braces("static void ac_constants(const double *p, double *c)", writer.function(values))
+            return braces("static void ac_constants(const double *p, double *c)", writer.function(values))
         moving = [(f"dc[{i}]", e) for i, e in enumerate(self.hoisted.nodes)]
         head = "static void ac_constants_tangent(const double *p, const ac_vector *dp, ac_vector *dc)"
-        return _braces(head, writer.function((), moving))
+        return braces(head, writer.function((), moving))
 
     def assignments(self, assignments: list[Assignment], name: str, given: bool, tangents: bool) -> list[str]:
         """Statements ``name[target] = expression`` of parameters, in order."""
@@ -211,11 +226,11 @@ class _Small:
         p = "const double *p" if tangents else "double *p"
         ordered, starts = self.program.ordered, self.program.flat.start_assignments
         return [
-            _braces(
+            braces(
                 f"static void ac_parameters{end}(const unsigned char *given, {p}{d_p})",
                 self.assignments(ordered, "p", True, tangents),
             ),
-            _braces(f"static void ac_starts{end}(const double *p{d})", self.assignments(starts, "s", False, tangents)),
+            braces(f"static void ac_starts{end}(const double *p{d})", self.assignments(starts, "s", False, tangents)),
         ]
 
     # ---- the file ---------------------------------------------------------------------------------
@@ -234,14 +249,20 @@ class _Small:
         }  # fmt: skip
         head = [f"#define {name} {value}" for name, value in sizes.items()]
         arrays = [*self.field.arrays("ac"), *self.invariants.arrays("ac_g"), *self.conditions.arrays("ac_i")]
-        arrays.append(_array("double", "ac_nominal", nominal.tolist()))
+        arrays.append(array("double", "ac_nominal", nominal.tolist()))
         factor = [
-            _braces("static int ac_factor(double d, const double *J, double *F)", factor_lines(plan, nominal)),
-            _braces("static void ac_solve(const double *F, double *b)", solve_lines(plan, "double")),
+            braces(
+                "static int ac_factor(const ac_model *m, double d, const double *J, double *F)",
+                factor_lines(plan, nominal),
+            ),
+            braces("static void ac_solve(const ac_model *m, const double *F, double *b)", solve_lines(plan, "double")),
         ]
-        along = _braces("static void ac_solve_vector(const double *F, ac_vector *b)", solve_lines(plan, "ac_vector"))
+        along = braces(
+            "static void ac_solve_vector(const ac_model *m, const double *F, ac_vector *b)",
+            solve_lines(plan, "ac_vector"),
+        )
         parts = [
-            *head, '#include "acausal.h"', *arrays, *_tableau(), *self.parameters(False), constants, *functions,
+            *head, '#include "acausal.h"', *arrays, *tableau_lines(), *self.parameters(False), constants, *functions,
             observe, *factor, f"#ifdef {TANGENTS}", *self.parameters(True), constants_tangent, *tangents, along,
             "#endif", '#include "solver.h"',
         ]  # fmt: skip
@@ -284,32 +305,6 @@ class _Block:
     def arrays(self, name: str) -> list[str]:
         """Rows and columns of the derivatives."""
         return [
-            _array("int", f"{name}_row", [i for i, _ in self.entries]),
-            _array("int", f"{name}_column", [j for _, j in self.entries]),
+            array("int", f"{name}_row", [i for i, _ in self.entries]),
+            array("int", f"{name}_column", [j for _, j in self.entries]),
         ]
-
-
-def _braces(head: str, lines: Iterable[str]) -> str:
-    return "\n".join([head + " {", *("    " + line for line in lines), "}"])
-
-
-def _array(kind: str, name: str, values: list[int] | list[float]) -> str:
-    text = ", ".join(number(v) if kind == "double" else str(v) for v in values) or "0"
-    return f"AC_UNUSED static const {kind} {name}[{max(len(values), 1)}] = {{{text}}};"
-
-
-def _tableau() -> list[str]:
-    """Coefficients of the method."""
-
-    def rows(a: np.ndarray) -> str:
-        return ", ".join("{" + ", ".join(number(v) for v in row) + "}" for row in a.tolist())
-
-    return [
-        f"static const double ac_gamma = {tableau.GAMMA!r};",
-        f"static const double ac_A[8][8] = {{{rows(tableau.A)}}};",
-        f"static const double ac_C[8][8] = {{{rows(tableau.C)}}};",
-        f"static const double ac_H[3][8] = {{{rows(tableau.H)}}};",
-        _array("double", "ac_B", tableau.B.tolist()),
-        _array("double", "ac_nodes", tableau.NODES.tolist()),
-        _array("double", "ac_D", tableau.D.tolist()),
-    ]

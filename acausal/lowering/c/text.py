@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from ...errors import AcausalError
 from ...language.blackbox import BlackBox, Table
 from ...symbolic.expr import Expr
@@ -77,3 +79,14 @@ def _term(node: Expr, text: str, *, first: bool) -> str:
     if node.op == "const" and node.value < 0 and not first:
         return f" - {number(-node.value)}"
     return text if first else f" + {text}"
+
+
+def braces(head: str, lines: Iterable[str]) -> str:
+    """A C function."""
+    return "\n".join([head + " {", *("    " + line for line in lines), "}"])
+
+
+def array(kind: str, name: str, values: list[int] | list[float]) -> str:
+    """A constant C array."""
+    text = ", ".join(number(v) if kind == "double" else str(v) for v in values) or "0"
+    return f"AC_UNUSED static const {kind} {name}[{max(len(values), 1)}] = {{{text}}};"

@@ -105,5 +105,21 @@ typedef struct {
     const ac_signal *signals; /* inputs */
     double *u, *du;           /* inputs and their rates at the time of the call */
     const int *const *index;  /* index rows of families */
+    const double *nominal;
+#ifdef AC_FAMILIES            /* room for all variables, their derivatives along one direction, and tangents of both */
+    double *v, *va, *pa, *f;
+    ac_vector *dv, *dva, *dpi, *seed, *swept;
+#endif
 } ac_model;
+
+#ifdef AC_FAMILIES
+/* Inputs into their places among the parameters, and their rates. */
+static inline void ac_feed(const ac_model *m) {
+    for (int i = 0; i < AC_NU; i++) ((double *)m->p)[AC_NPAR + i] = m->u[i], m->pa[AC_NPAR + i] = m->du[i];
+}
+
+static inline void ac_feed_rates(const ac_model *m, ac_vector dt) {
+    for (int i = 0; i < AC_NU; i++) m->dpi[AC_NPAR + i] = m->du[i] * dt;
+}
+#endif
 #endif

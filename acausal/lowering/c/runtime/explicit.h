@@ -20,7 +20,7 @@ static int ac_slope(ac_work *w, double t, double *z, double *dz) {
     }
     double before = INFINITY;
     for (int turn = 0; turn < AC_NEWTON; turn++) {
-        double ignored[AC_N], r[AC_N], size = 0.0;
+        double *ignored = w->v[0], *r = w->v[1], size = 0.0;
         ac_inputs(w, t);
         ac_field_jacobian(&w->m, t, z, dz, ignored, w->J);
         if (ac_factorise(w, 1e30)) return 1; /* the states stand still, the algebraic unknowns follow */

@@ -1,15 +1,6 @@
 /* The point of an accepted step is put back onto the retained constraints g = 0, the algebraic unknowns following
    through their own equations: Eich (1993), SIAM J. Numer. Anal. 30(5), Eq. (2.4), scaled by nominal values. */
 
-typedef struct {
-    double g[AC_NG], G[AC_NGZ + 1];
-    double matrix[AC_NG][AC_NX], follow[AC_N - AC_NX + 1][AC_NX + 1];
-    double normal[AC_NG * AC_NG], rhs[AC_NG], size[AC_NG];
-    int pivot[AC_NG];
-    double rr[(AC_N - AC_NX) * (AC_N - AC_NX) + 1];
-    int rpivot[AC_N - AC_NX + 1];
-} ac_projection;
-
 /* follow = -r_w^{-1} (r_x | r): how the algebraic unknowns move with the states. */
 static void ac_follow(const ac_work *w, ac_projection *a) {
     enum { NW = AC_N - AC_NX };
@@ -61,23 +52,23 @@ static void ac_normal(const ac_work *w, ac_projection *a) {
 }
 
 static void ac_project(ac_work *w, void *tangents, double t) {
-    ac_projection a;
+    ac_projection *const a = &w->projection;
     double z[AC_N];
     for (int turn = 0; turn < 2; turn++) {
         ac_inputs(w, t);
         if (AC_N > AC_NX) ac_field_jacobian(&w->m, t, w->z1, w->f, w->y, w->J);
-        ac_follow(w, &a);
-        ac_invariants(&w->m, t, w->z1, a.g, a.G);
-        ac_normal(w, &a);
-        for (int i = 0; i < AC_NG; i++) a.rhs[i] *= a.size[i];
-        ac_dense_solve(AC_NG, a.normal, a.pivot, a.rhs);
+        ac_follow(w, a);
+        ac_invariants(&w->m, t, w->z1, a->g, a->G);
+        ac_normal(w, a);
+        for (int i = 0; i < AC_NG; i++) a->rhs[i] *= a->size[i];
+        ac_dense_solve(AC_NG, a->normal, a->pivot, a->rhs);
         for (int k = 0; k < AC_NX; k++) {
             z[k] = 0.0;
-            for (int i = 0; i < AC_NG; i++) z[k] -= ac_nominal[k] * a.matrix[i][k] * a.rhs[i];
+            for (int i = 0; i < AC_NG; i++) z[k] -= ac_nominal[k] * a->matrix[i][k] * a->rhs[i];
         }
         for (int j = AC_NX; j < AC_N; j++) {
-            z[j] = a.follow[j - AC_NX][AC_NX];
-            for (int k = 0; k < AC_NX; k++) z[j] += a.follow[j - AC_NX][k] * z[k];
+            z[j] = a->follow[j - AC_NX][AC_NX];
+            for (int k = 0; k < AC_NX; k++) z[j] += a->follow[j - AC_NX][k] * z[k];
         }
         for (int i = 0; i < AC_N; i++) w->z1[i] += z[i];
     }
@@ -89,17 +80,17 @@ static void ac_project(ac_work *w, void *tangents, double t) {
     ac_field_tangent(&w->m, t, w->z1, d->dz1, df);
     ac_invariants_tangent(&w->m, t, w->z1, d->dz1, dg);
     for (int j = AC_NX; j < AC_N; j++) x[j] = -df[j];
-    if (AC_N > AC_NX) ac_dense_solve_vector(AC_N - AC_NX, a.rr, a.rpivot, x + AC_NX);
+    if (AC_N > AC_NX) ac_dense_solve_vector(AC_N - AC_NX, a->rr, a->rpivot, x + AC_NX);
     for (int e = 0; e < AC_NGZ; e++)
-        if (ac_g_column[e] >= AC_NX) dg[ac_g_row[e]] += a.G[e] * x[ac_g_column[e]];
-    for (int i = 0; i < AC_NG; i++) dg[i] *= a.size[i];
-    ac_dense_solve_vector(AC_NG, a.normal, a.pivot, dg);
+        if (ac_g_column[e] >= AC_NX) dg[ac_g_row[e]] += a->G[e] * x[ac_g_column[e]];
+    for (int i = 0; i < AC_NG; i++) dg[i] *= a->size[i];
+    ac_dense_solve_vector(AC_NG, a->normal, a->pivot, dg);
     for (int k = 0; k < AC_NX; k++) {
         x[k] = ac_zero;
-        for (int i = 0; i < AC_NG; i++) x[k] -= ac_nominal[k] * a.matrix[i][k] * dg[i];
+        for (int i = 0; i < AC_NG; i++) x[k] -= ac_nominal[k] * a->matrix[i][k] * dg[i];
     }
     for (int j = AC_NX; j < AC_N; j++)
-        for (int k = 0; k < AC_NX; k++) x[j] += a.follow[j - AC_NX][k] * x[k];
+        for (int k = 0; k < AC_NX; k++) x[j] += a->follow[j - AC_NX][k] * x[k];
     for (int i = 0; i < AC_N; i++) d->dz1[i] += x[i];
 #else
     (void)tangents;

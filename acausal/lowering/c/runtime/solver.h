@@ -19,6 +19,7 @@ typedef struct {
     const double *z0, *p;
     const ac_signal *signals;
     const int *const *index;
+    const double *nominal;         /* (n), where the file does not have them */
     long n_save;
     const double *save;            /* output times, in the direction of the run */
     int n_directions;              /* of the tangents: at most AC_LANES */
@@ -30,25 +31,61 @@ typedef struct {
     const volatile int *stop;      /* set from outside to end the run */
 } ac_problem;
 
+#if AC_NG > 0
+typedef struct { /* of the normal equations of projection.h */
+    double g[AC_NG], G[AC_NGZ + 1];
+    double matrix[AC_NG][AC_NX], follow[AC_N - AC_NX + 1][AC_NX + 1];
+    double normal[AC_NG * AC_NG], rhs[AC_NG], size[AC_NG];
+    int pivot[AC_NG];
+    double rr[(AC_N - AC_NX) * (AC_N - AC_NX) + 1];
+    int rpivot[AC_N - AC_NX + 1];
+} ac_projection;
+#endif
+
 typedef struct {
     ac_model m;
     double c[AC_NC + 1], u[AC_NU + 1], du[AC_NU + 1];
     double z[AC_N], z1[AC_N], f[AC_N], ft[AC_N], J[AC_NZ + 1], F[AC_NF + 1], k[8][AC_N], v[3][AC_N], y[AC_N];
     int pivoted;                   /* the factors are dense, with pivots */
+#ifdef AC_FAMILIES
+    double p[AC_NP + 1], all[AC_NALL], all_a[AC_NALL], rates[AC_NP + 1], f_all[AC_N];
+    ac_vector d_all[AC_NALL], d_inputs[AC_NP + 1], seed[AC_N], swept[AC_N];
+#else
     int pivot[AC_N];
     double dense[AC_N * AC_N];
+#endif
+#if AC_NG > 0
+    ac_projection projection;
+#endif
 } ac_work;
 
 #ifdef AC_TANGENTS
 typedef struct {
-    ac_vector dc[AC_NC + 1], dz[AC_N], dz1[AC_N], dJ[AC_NZ + 1], dft[AC_N], dk[8][AC_N], dy[AC_N], dv[3][AC_N];
+    ac_vector dc[AC_NC + 1], dz[AC_N], dz1[AC_N], dft[AC_N], dk[8][AC_N], dy[AC_N], dv[3][AC_N];
+#ifdef AC_FAMILIES
+    double all[AC_NALL];
+    ac_vector d_all[AC_NALL], d_all_a[AC_NALL], second[AC_N];
+#else
+    ac_vector dJ[AC_NZ + 1];
+#endif
 } ac_tangent_work;
+#endif
+
+#ifdef AC_FAMILIES
+static void ac_room(ac_model *m, ac_work *w, const double *p) {
+    memcpy(w->p, p, sizeof(double) * AC_NP);
+    m->p = w->p, m->v = w->all, m->va = w->all_a, m->pa = w->rates, m->f = w->f_all;
+    m->dv = w->d_all, m->dpi = w->d_inputs, m->seed = w->seed, m->swept = w->swept;
+}
 #endif
 
 /* Factors of W = d M - J; 0 if it could be factorised. */
 static int ac_factorise(ac_work *w, double d) {
-    w->pivoted = ac_factor(d, w->J, w->F);
+    w->pivoted = ac_factor(&w->m, d, w->J, w->F);
     if (!w->pivoted) return 0;
+#ifdef AC_FAMILIES
+    return 1;
+#else
     memset(w->dense, 0, sizeof w->dense);
     for (int i = 0; i < AC_NX; i++) w->dense[i * AC_N + i] = d;
     for (int e = 0; e < AC_NZ; e++) w->dense[ac_row[e] * AC_N + ac_column[e]] -= w->J[e];
@@ -60,18 +97,24 @@ static int ac_factorise(ac_work *w, double d) {
         w->F[i] = w->y[i];
     }
     return ac_dense_factor(AC_N, w->dense, w->pivot);
+#endif
 }
 
+#ifdef AC_FAMILIES
+#define AC_BACK(NAME, TYPE, FAST, DENSE) \
+    static void NAME(const ac_work *w, TYPE *b) { FAST(&w->m, w->F, b); }
+#else
 #define AC_BACK(NAME, TYPE, FAST, DENSE)                              \
     static void NAME(const ac_work *w, TYPE *b) {                     \
         if (!w->pivoted) {                                            \
-            FAST(w->F, b);                                            \
+            FAST(&w->m, w->F, b);                                           \
             return;                                                   \
         }                                                             \
         for (int i = 0; i < AC_N; i++) b[i] *= w->F[i];               \
         DENSE(AC_N, w->dense, w->pivot, b);                           \
         for (int i = 0; i < AC_N; i++) b[i] *= ac_nominal[i];         \
     }
+#endif
 AC_BACK(ac_back, double, ac_solve, ac_dense_solve)
 
 /* Inputs and their rates at time t. */
@@ -151,7 +194,16 @@ AC_BACK(ac_back_vector, ac_vector, ac_solve_vector, ac_dense_solve_vector)
 static void ac_step_tangent(ac_work *w, ac_tangent_work *d, double t, double h) {
     const double inverse = 1.0 / h;
     ac_inputs(w, t);
+#ifdef AC_FAMILIES
+    ac_model base = w->m; /* all variables at the start of the step, and their tangents */
+    base.v = d->all, base.dv = d->d_all, base.dva = d->d_all_a;
+    ac_field(&base, t, w->z, w->y);
+    ac_along(&base, t, ac_zero, d->dz, d->dy);
+    memset(w->y, 0, sizeof w->y);
+    ac_second(&base, t, 1.0, w->y, d->dz, d->dft);
+#else
     ac_jacobian_tangent(&w->m, t, w->z, d->dz, d->dJ, d->dft);
+#endif
     for (int s = 0; s < 8; s++) {
         ac_vector *k = d->dk[s];
         for (int i = 0; i < AC_N; i++) w->y[i] = w->z[i], d->dy[i] = d->dz[i];
@@ -170,7 +222,13 @@ static void ac_step_tangent(ac_work *w, ac_tangent_work *d, double t, double h) 
         const double weight = ac_D[s] * h;
         if (weight != 0.0)
             for (int i = 0; i < AC_N; i++) k[i] += weight * d->dft[i];
+#ifdef AC_FAMILIES
+        ac_inputs(w, t);
+        ac_second(&base, t, 0.0, w->k[s], d->dz, d->second);
+        for (int i = 0; i < AC_N; i++) k[i] += d->second[i];
+#else
         for (int e = 0; e < AC_NZ; e++) k[ac_row[e]] += w->k[s][ac_column[e]] * d->dJ[e];
+#endif
         ac_back_vector(w, k);
     }
     for (int i = 0; i < AC_N; i++) d->dz1[i] = d->dz[i];
@@ -314,19 +372,26 @@ AC_EXPORT long acausal_size(int which) {
     return sizes[which];
 }
 
+#ifndef AC_FAMILIES
 AC_EXPORT const int *acausal_start_pattern(int column) { return column ? ac_i_column : ac_i_row; }
+#endif
 
 AC_EXPORT int acausal_run(ac_problem *q) {
-    ac_work *w = malloc(sizeof *w);
+    ac_work *w = calloc(1, sizeof *w);
     void *tangents = NULL;
     if (!w) return AC_NO_MEMORY;
-    w->m = (ac_model){q->p, w->c, (const ac_vector *)q->dp, NULL, q->signals, w->u, w->du, q->index};
+    memset(&w->m, 0, sizeof w->m);
+    w->m.p = q->p, w->m.c = w->c, w->m.dp = (const ac_vector *)q->dp, w->m.signals = q->signals;
+    w->m.u = w->u, w->m.du = w->du, w->m.index = q->index, w->m.nominal = q->nominal;
+#ifdef AC_FAMILIES
+    ac_room(&w->m, w, q->p);
+#endif
     memcpy(w->z, q->z0, sizeof w->z);
     q->t_end = q->t0;
     ac_constants(q->p, w->c);
 #ifdef AC_TANGENTS
     if (q->n_directions > 0) {
-        ac_tangent_work *d = tangents = malloc(sizeof *d);
+        ac_tangent_work *d = tangents = calloc(1, sizeof *d);
         if (!d) return free(w), AC_NO_MEMORY;
         ac_constants_tangent(q->p, w->m.dp, d->dc);
         w->m.dc = d->dc;
@@ -343,6 +408,7 @@ AC_EXPORT int acausal_run(ac_problem *q) {
     return result;
 }
 
+#ifndef AC_FAMILIES
 /* All parameters from those that are given: p holds defaults and given values on entry. */
 AC_EXPORT void acausal_parameters(const unsigned char *given, double *p) { ac_parameters(given, p); }
 
@@ -364,22 +430,28 @@ AC_EXPORT void acausal_conditions(const double *p, double t, const double *z, do
     ac_conditions(&m, t, z, g, G);
 }
 
-/* Every variable at n points; inputs follow their signals. */
-AC_EXPORT void acausal_observe(
-    const double *p, const ac_signal *signals, long n, const double *t, const double *z, double *all) {
-    double c[AC_NC + 1], u[2 * AC_NU + 1];
-    ac_model m;
-    ac_held(&m, p, c, u);
+#endif
+
+/* Every variable at n points; inputs follow their signals. 0, or 1 where there is no memory. */
+AC_EXPORT int acausal_observe(
+    const double *p, const ac_signal *signals, const int *const *index, long n, const double *t, const double *z,
+    double *all) {
+    ac_work *w = calloc(1, sizeof *w);
+    if (!w) return 1;
+    w->m.p = p, w->m.c = w->c, w->m.u = w->u, w->m.du = w->du, w->m.signals = signals, w->m.index = index;
+#ifdef AC_FAMILIES
+    ac_room(&w->m, w, p);
+#endif
+    ac_constants(p, w->c);
     for (long k = 0; k < n; k++) {
-        for (int i = 0; i < AC_NU; i++) {
-            const ac_signal *s = signals + i;
-            u[i] = s->n == 1 ? s->v[0] : ac_table(s->n, s->t, s->v, t[k]);
-        }
-        ac_observe(&m, t[k], z + k * AC_N, all + k * AC_NALL);
+        ac_inputs(w, t[k]);
+        ac_observe(&w->m, t[k], z + k * AC_N, all + k * AC_NALL);
     }
+    free(w);
+    return 0;
 }
 
-#ifdef AC_TANGENTS
+#if defined(AC_TANGENTS) && !defined(AC_FAMILIES)
 AC_EXPORT void acausal_parameters_tangent(const unsigned char *given, const double *p, double *dp) {
     ac_parameters_tangent(given, p, (ac_vector *)dp);
 }

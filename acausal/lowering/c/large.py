@@ -1,0 +1,55 @@
+"""The C file of a large system: sizes, kernels, loops; the index rows go beside it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy import sparse
+
+from .factor import plan_factors
+from .families import Families, factor_tables, functions
+from .tableau import tableau_lines
+from .text import braces
+
+if TYPE_CHECKING:
+    from ..lowered import Lowered
+
+
+def large_file(lowered: Lowered, n_par: int, n_inputs: int) -> tuple[str, list[Any]]:
+    """C text, and the tables that the compiled code is given."""
+    families = Families(lowered, n_par, n_inputs)
+    own, along = functions(families)
+    pattern = families.pattern
+    coo = pattern.tocoo()
+    n = pattern.shape[0]
+    numbered = sparse.csr_matrix((np.arange(coo.nnz) + 1, (coo.row, coo.col)), shape=(n, n))
+    numbered.data = numbered.data - 1
+    plan = plan_factors(numbered, np.arange(n) < lowered.n_x)
+    tables = families.tables
+    colors = int(families.color.max(initial=-1)) + 1
+    sizes = {
+        "AC_N": n, "AC_NX": lowered.n_x, "AC_NZ": coo.nnz, "AC_NF": plan.size, "AC_NC": 0, "AC_NU": n_inputs,
+        "AC_NPAR": n_par, "AC_NP": lowered.n_p, "AC_NG": 0, "AC_NGZ": 0, "AC_NI": 0, "AC_NIZ": 0,
+        "AC_NALL": lowered.n_ids, "AC_COLORS": colors, "AC_LU_SIZE": len(plan.indices),
+    }  # fmt: skip
+    places = {"AC_COLOR_TABLE": families.color, "AC_ROW_TABLE": coo.row, "AC_COLUMN_TABLE": coo.col}
+    head = ["#define AC_FAMILIES 1", *(f"#define {name} {value}" for name, value in sizes.items())]
+    for name, values in places.items():
+        tables.add(values)
+        head.append(f"#define {name} {len(tables.arrays) - 1}")
+    head += factor_tables(plan, tables)
+    head += [
+        "#define ac_row (w->m.index[AC_ROW_TABLE])", "#define ac_column (w->m.index[AC_COLUMN_TABLE])",
+        "#define ac_nominal (w->m.nominal)",
+    ]  # fmt: skip
+    constants = "static void ac_constants(const double *p, double *c) { (void)p; (void)c; }"
+    constants_along = braces(
+        "static void ac_constants_tangent(const double *p, const ac_vector *dp, ac_vector *dc)",
+        ["(void)p; (void)dp; (void)dc;"],
+    )
+    parts = [
+        *head, '#include "acausal.h"', *tableau_lines(), constants, *own, "#ifdef AC_TANGENTS", constants_along, *along,
+        "#endif", '#include "families.h"', '#include "solver.h"',
+    ]  # fmt: skip
+    return "\n".join(parts) + "\n", tables.arrays
