@@ -3,32 +3,28 @@
 from __future__ import annotations
 
 import functools
+import sys
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import jax
-import jax.numpy as jnp
 import numpy as np
-from jax.core import Tracer
 
 from acausal.errors import UnknownNameError, nearest
 from acausal.lowering.lowered import Lowered as CompiledSystem
 
 from .cache import ById, cache_of
-from .inputs import DrivenLowered
-from .jit import jit
-from .lowered import Lowered
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+    from .lowered import Lowered
+
 KEEP_ALL = 4_000_000
 """Up to so many values all variables are computed at once and kept; beyond, each request computes what it returns."""
 
 
-@jax.tree_util.register_pytree_node_class
 class Solution:
     """Trajectories of all variables of a model.
 
@@ -68,9 +64,12 @@ class Solution:
         self.lowered: Lowered = system.lowered if lowered is None else lowered
         self._observe = observe
         self._all: Any = None
+        register()
 
     def tree_flatten(self) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
         """Leaves: times, trajectories, parameters and the counts that are arrays."""
+        import jax
+
         numbers = {k: v for k, v in self.stats.items() if isinstance(v, jax.Array)}
         fixed = tuple((k, v) for k, v in self.stats.items() if k not in numbers and k not in _RUN_ONLY)
         children = (self.t, self.x, self.w, self.p, numbers, self.events)
@@ -138,6 +137,8 @@ class Solution:
             if self._all is None:
                 self._all = self._observe(self.t, np.concatenate([self.x, self.w], axis=1))
             return self._all[:, indices]
+        import jax.numpy as jnp
+
         if self._all is None and self._size <= KEEP_ALL:
             everything = jnp.arange(self._n_all)
             self._all = np.asarray(_observe(self.lowered, everything, self.t, self.x, self.w, self.p))
@@ -147,7 +148,12 @@ class Solution:
 
     def _traced_values(self, indices: Any) -> Any:
         """Only what these variables need is traced."""
+        import jax
+        import jax.numpy as jnp
+
         ids, shape = np.ravel(np.asarray(indices)), np.shape(indices)
+        from .inputs import DrivenLowered
+
         if not isinstance(self.lowered, (CompiledSystem, DrivenLowered)):
             return _observe(self.lowered, jnp.asarray(indices), self.t, self.x, self.w, self.p)
         observe = self.lowered.observe
@@ -156,6 +162,8 @@ class Solution:
 
     @functools.cached_property
     def _n_all(self) -> int:
+        import jax
+
         shape = jax.eval_shape(self.lowered.observe, self.t[0], self.x[0], self.w[0], self.p)
         return shape.shape[0]
 
@@ -165,14 +173,18 @@ class Solution:
 
     @property
     def _traced(self) -> bool:
-        return any(isinstance(leaf, Tracer) for leaf in (self.t, self.x, self.w, self.p))
+        return any(is_traced(leaf) for leaf in (self.t, self.x, self.w, self.p))
 
     def _out(self, values: Any) -> Any:
-        return values if isinstance(values, Tracer) else np.asarray(values)
+        return values if is_traced(values) else np.asarray(values)
 
     def _stack(self, columns: list[Any]) -> Any:
         columns = [c if c.ndim == 2 else c[:, None] for c in columns]
-        return (jnp if any(isinstance(c, Tracer) for c in columns) else np).concatenate(columns, axis=1)
+        if not any(is_traced(c) for c in columns):
+            return np.concatenate(columns, axis=1)
+        import jax.numpy as jnp
+
+        return jnp.concatenate(columns, axis=1)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -277,6 +289,27 @@ class Solution:
         return figure
 
 
+_registered: list[bool] = []
+
+
+def register() -> None:
+    """Make `Solution` known to JAX as a pytree, once, if JAX is loaded: results of the native engine do not need it."""
+    if not _registered and "jax" in sys.modules:
+        import jax
+
+        _registered.append(True)
+        jax.tree_util.register_pytree_node_class(Solution)
+
+
+def is_traced(value: Any) -> bool:
+    """Whether a value is traced by JAX."""
+    if "jax" not in sys.modules:
+        return False
+    from jax.core import Tracer
+
+    return isinstance(value, Tracer)
+
+
 _RUN_ONLY = ("compile_seconds", "run_seconds")
 
 
@@ -297,6 +330,10 @@ def _columns(names: tuple[str, ...]) -> dict[str, int]:
 
 def _observe(lowered: Lowered, indices: Any, t: Any, x: Any, w: Any, p: Any) -> Any:
     """Variables at `indices` over all times, shape (n_t, *indices.shape), without keeping the others."""
+    import jax
+
+    from .jit import jit
+
     cache = cache_of(lowered)
     if "observe" not in cache:
 
