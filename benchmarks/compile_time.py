@@ -93,7 +93,7 @@ def measure_all(names: list[str]) -> dict[str, dict[str, float]]:
                 raise SystemExit(f"{name} failed: {problem}")
             runs.append(result)
         best = min(runs, key=lambda r: r["cpu"])
-        found[name] = {"cpu": best["cpu"], "translate": best["translate"], "trace": best["trace"], "xla": best["xla"]}
+        found[name] = {stage: best[stage] for stage in ("cpu", "translate", "prepare", "build")}
     return found
 
 
@@ -131,7 +131,7 @@ def main(words: list[str] | None = None) -> int:
         allowed = None if base is None else base * scale * SLACK + GRACE
         if allowed is not None and figures["cpu"] > allowed:
             slower.append(f"{name}: {figures['cpu']:.2f} CPU seconds, allowed {allowed:.2f}")
-        columns = (figures["translate"], figures["trace"], figures["xla"], figures["cpu"])
+        columns = (figures["translate"], figures["prepare"], figures["build"], figures["cpu"])
         rows.append((name, *map(seconds, columns), "" if base is None else seconds(base * scale)))
     if chosen.check:
         print("\n".join(slower) or f"{len(found)} models compile within their baselines")
@@ -139,7 +139,7 @@ def main(words: list[str] | None = None) -> int:
     text = (
         "Construction, compilation and a simulation of 1 ms in a new process, the best of two; imports are not counted."
     )
-    header = ("model", "translate [s]", "trace [s]", "XLA [s]", "in all [CPU s]", "baseline [CPU s]")
+    header = ("model", "translate [s]", "write C [s]", "C compiler [s]", "in all [CPU s]", "baseline [CPU s]")
     write(Section("compile-time", "Compile time", "python -m benchmarks.compile_time", text, header, rows))
     return 0
 

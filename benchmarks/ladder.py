@@ -1,7 +1,8 @@
 """The RC ladder from resistor, capacitor, ground and source components, in any length.
 
-    python -m benchmarks.ladder            # how compilation grows with the number of cells
-    python -m benchmarks.ladder --peers    # side by side with other Modelica compilers for Python
+    python -m benchmarks.ladder                     # how compilation grows with the number of cells
+    python -m benchmarks.ladder --engine diffrax    # the same for the other engine
+    python -m benchmarks.ladder --peers             # side by side with other Modelica compilers for Python
 
 `--peers` needs the `bench` extra. A peer that needs another interpreter: `--peer-python modelica=/path/to/python`.
 """
@@ -67,9 +68,9 @@ def beside_peers(chosen: argparse.Namespace) -> None:
             label = f"{peer} {found['version']} ({found['configuration']})"
             rows.append(_row(cells, label, found["compile"], found["solve"], found["error"], ours_total, found["cpu"]))
     text = (
-        "The ladder of the section above, for the others as Modelica text with the same classes and connections. All "
+        "The ladder of the sections above, for the others as Modelica text with the same classes and connections. All "
         "give 101 points at rtol 1e-6 and atol 1e-9. *Ratio* is the tool's total divided by ours. Each row is a new "
-        "process; imports are not counted."
+        "process; imports are not counted. Ours is the native engine with an empty cache, the C compiler included."
     )
     header = ("cells", "tool", "compile", "solve", "total", "ratio", "CPU seconds", "error")
     command = "python -m benchmarks.ladder --peers"

@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
@@ -27,8 +28,8 @@ class Measurement:
         instantiate: constructing the model [s].
         translate: flatten .. lower [s].
         passes: seconds of each pass.
-        trace: JAX tracing and lowering, and initialization [s].
-        xla: XLA's compilation [s].
+        prepare: writing the C or tracing with JAX, and initialization [s].
+        build: the C compiler, or XLA [s].
         first: the whole first `simulate` [s].
         run: the integration [s].
         cpu: CPU seconds from construction to the first result.
@@ -41,8 +42,8 @@ class Measurement:
     instantiate: float
     translate: float
     passes: dict[str, float]
-    trace: float
-    xla: float
+    prepare: float
+    build: float
     first: float
     run: float
     cpu: float
@@ -87,14 +88,14 @@ def measure(
     del diffrax  # imported here so that its import is not timed
     ac.compile  # noqa: B018
     ac.Rodas5P  # noqa: B018
-    xla: list[float] = []
+    build: list[float] = []
 
     def heard(event: str, duration: float, **_: Any) -> None:
         if event == XLA_EVENT:
-            xla.append(duration)
+            build.append(duration)
 
     jax.monitoring.register_event_duration_secs_listener(heard)
-    cpu = time.process_time()
+    cpu = _cpu_seconds()
     clock = [time.perf_counter()]
     model = make()
     clock.append(time.perf_counter())
@@ -102,16 +103,17 @@ def measure(
     clock.append(time.perf_counter())
     solution = system.simulate(t1, saveat=saveat, **options)
     clock.append(time.perf_counter())
-    cpu = time.process_time() - cpu
-    compiling = sum(xla)
+    cpu = _cpu_seconds() - cpu
+    native = solution.stats.get("engine") == "native"
+    compiling = float(solution.stats["compile_seconds"]) if native else sum(build)
     run = float(solution.stats["run_seconds"])
     report = system.report()
     return Measurement(
         instantiate=clock[1] - clock[0],
         translate=clock[2] - clock[1],
         passes=dict(report.seconds),
-        trace=clock[3] - clock[2] - run - compiling,
-        xla=compiling,
+        prepare=clock[3] - clock[2] - run - compiling,
+        build=compiling,
         first=clock[3] - clock[2],
         run=run,
         cpu=cpu,
@@ -122,23 +124,32 @@ def measure(
     )
 
 
+def _cpu_seconds() -> float:
+    """Of this process and of those that it started and that have ended, as the C compiler."""
+    spent = os.times()
+    return time.process_time() + spent.children_user + spent.children_system
+
+
 def emit(measurement: Measurement) -> None:
     """Print a measurement for `child_measurement`."""
     print(json.dumps(asdict(measurement)))
 
 
 def child(arguments: Sequence[str], timeout: float, python: str = sys.executable) -> tuple[dict[str, Any] | None, str]:
-    """Run `python -m ARGUMENTS` at the root of the project; its last line of output is JSON.
+    """Run `python -m ARGUMENTS` at the root of the project with an empty cache; its last line of output is JSON.
 
     Returns:
         the JSON and an empty text, or None and what went wrong.
     """
-    try:
-        done = subprocess.run(
-            [python, "-m", *arguments], capture_output=True, text=True, timeout=timeout, cwd=ROOT, check=False
-        )
-    except subprocess.TimeoutExpired:
-        return None, f"> {timeout:.0f} s"
+    with tempfile.TemporaryDirectory() as cache:
+        env = {**os.environ, "ACAUSAL_CACHE": cache}
+        try:
+            done = subprocess.run(
+                [python, "-m", *arguments],
+                capture_output=True, text=True, timeout=timeout, cwd=ROOT, check=False, env=env,
+            )  # fmt: skip
+        except subprocess.TimeoutExpired:
+            return None, f"> {timeout:.0f} s"
     lines = done.stdout.strip().splitlines()
     if lines and lines[-1].startswith("{"):
         return json.loads(lines[-1]), ""
