@@ -23,10 +23,9 @@ from .language.component import Array as Array
 from .language.component import Component as Component
 from .language.component import Connector as Connector
 from .language.component import Equations as Equations
+from .language.component import conditional as conditional
 from .language.component import inner as inner
-from .language.component import modify as modify
 from .language.component import outer as outer
-from .language.component import redeclare as redeclare
 from .language.connections import connect as connect
 from .language.declarations import Flow as Flow
 from .language.declarations import Input as Input
@@ -62,6 +61,8 @@ from .language.functions import tan as tan
 from .language.functions import tanh as tanh
 from .language.functions import time as time
 from .language.functions import where as where
+from .language.modification import modify as modify
+from .language.modification import redeclare as redeclare
 from .symbolic.expr import Expr as Expr
 
 if TYPE_CHECKING:

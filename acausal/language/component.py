@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, cast, d
 from ..errors import DeclarationError, nearest
 from ..symbolic.equation import Equation
 from ..symbolic.expr import Expr
-from .declarations import Declaration, Kind, Start, Structural, Value
+from .declarations import Declaration, Kind, Start, Structural
 
 if TYPE_CHECKING:
     from .connections import Connect
@@ -49,7 +49,7 @@ class Component:
     def __init__(self, **modifications: Any) -> None:
         # modifications are checked one by one below; the class body gives the type checker their names and types
         for name, value in modifications.items():
-            modifications[name] = _checked(type(self), name, value)
+            modifications[name] = checked(type(self), name, value)
         self.__dict__["_mods"] = modifications
         self.__dict__["_path"] = ()
 
@@ -74,6 +74,12 @@ class Component:
         if name.startswith("_"):
             raise AttributeError(name)
         where = f" `{path_of(self)}`" if self.__dict__.get("_path") else ""
+        if not present(self, name):
+            condition = type(self)._children[name].condition
+            raise UnknownFieldError(
+                f"component{where} of class `{type(self).__name__}` has `{name}` only with `{condition}=True`: "
+                f"construct it so, `{type(self).__name__}({condition}=True)` {call_site()}".rstrip()
+            )
         known = field_names(type(self))
         hint = nearest(name, known) or f" It has: {', '.join(known)}."
         raise UnknownFieldError(
@@ -92,14 +98,17 @@ class UnknownFieldError(DeclarationError, AttributeError):
 class Child:
     """Descriptor of a sub-component, connector, component array or list of components."""
 
-    def __init__(self, name: str, default: Any, constraint: Any) -> None:
+    def __init__(self, name: str, default: Any, constraint: Any, condition: str = "") -> None:
         self.name = name
         self.default = default
         self.constraint = constraint
+        self.condition = condition
 
     def __get__(self, instance: Any, owner: type[Any]) -> Any:
         if instance is None:
             return self.default
+        if not present(instance, self.name):
+            raise AttributeError(self.name)  # explained by Component.__getattr__
         cache = instance.__dict__.setdefault("_views", {})
         if self.name not in cache:
             cache[self.name] = view(effective_child(instance, self.name), (*instance.__dict__["_path"], self.name))
@@ -171,6 +180,29 @@ class Shared:
     def __init__(self, component: Component, role: str) -> None:
         self.component = component
         self.role = role
+
+
+class Conditional:
+    """Wrapper of a sub-component that exists only where a structural parameter says so."""
+
+    def __init__(self, component: Component, condition: str) -> None:
+        self.component = component
+        self.condition = condition
+
+
+def conditional(component: C, condition: str) -> C:
+    """Declare a sub-component or connector that exists only where the boolean field `condition` is True.
+
+    ``heatPort: HeatPort = conditional(HeatPort(), "useHeatPort")``. The class's equations and connections refer to it
+    under ``if self.useHeatPort:``.
+    """
+    return cast(C, Conditional(component, condition))
+
+
+def present(owner: Component, name: str) -> bool:
+    """Whether sub-component `name` exists in `owner`, going by its condition."""
+    child = type(owner)._children.get(name)
+    return child is None or not child.condition or bool(getattr(owner, child.condition))
 
 
 def inner(component: C) -> C:
@@ -289,8 +321,8 @@ def combined(default: Start, given: Start) -> Start:
 def with_modifications(component: C, mods: Mapping[str, Any]) -> C:
     """A copy of `component` with modifications added (checked)."""
     copy = object.__new__(type(component))
-    checked = {k: _checked(type(component), k, v) for k, v in mods.items()}
-    copy.__dict__["_mods"] = {**component.__dict__["_mods"], **checked}
+    new = {k: checked(type(component), k, v) for k, v in mods.items()}
+    copy.__dict__["_mods"] = {**component.__dict__["_mods"], **new}
     copy.__dict__["_path"] = ()
     return copy
 
@@ -361,6 +393,14 @@ def _collect_one(
                 f"with its own ({cls._source[0]}:{cls._source[1]})"
             )
         declarations[name] = value
+    elif isinstance(value, Conditional):
+        if value.condition not in structural and not isinstance(cls.__dict__.get(value.condition), bool):
+            raise DeclarationError(
+                f"`{cls.__name__}.{name}` depends on `{value.condition}`, which is no boolean field declared in the "
+                f"class above it ({cls._source[0]}:{cls._source[1]})"
+            )
+        children[name] = descriptor = Child(name, value.component, annotation, value.condition)
+        type.__setattr__(cls, name, descriptor)
     elif isinstance(value, (Component, Array, Shared)) or (
         isinstance(value, (list, tuple)) and value and all(isinstance(v, Component) for v in value)
     ):
@@ -369,6 +409,16 @@ def _collect_one(
         type.__setattr__(cls, name, descriptor)
     elif isinstance(value, (bool, int, str)) and annotation is not None and "ClassVar" not in str(annotation):
         descriptor = Structural(name, value, type(value))
+        structural[name] = descriptor
+        type.__setattr__(cls, name, descriptor)
+    elif isinstance(value, tuple) and annotation is not None and "ClassVar" not in str(annotation):
+        rows = numbers(value)
+        if rows is None:
+            raise DeclarationError(
+                f"`{cls.__name__}.{name}: {annotation} = {value!r}`: a structural parameter that is a tuple holds "
+                f"numbers, or rows of numbers ({cls._source[0]}:{cls._source[1]})"
+            )
+        descriptor = Structural(name, rows, tuple)
         structural[name] = descriptor
         type.__setattr__(cls, name, descriptor)
     elif isinstance(value, float) and annotation is not None and "ClassVar" not in str(annotation):
@@ -404,7 +454,7 @@ def _evaluate_annotation(cls: type[Component], text: str) -> Any:
     return None
 
 
-def _checked(cls: type[Component], name: str, value: Any) -> Any:
+def checked(cls: type[Component], name: str, value: Any) -> Any:
     """`value` if it may modify field `name` of `cls`.
 
     Raises:
@@ -468,8 +518,25 @@ def _number(value: Any) -> Any:
     return None
 
 
+def numbers(value: Any) -> Any:
+    """`value` as (nested) tuples of floats; None if it is something else."""
+    items: Any = value.tolist() if hasattr(value, "tolist") else value
+    if not isinstance(items, (list, tuple)):
+        return None
+    found = [float(v) if isinstance(v, (int, float)) and not isinstance(v, bool) else numbers(v) for v in items]
+    return None if any(v is None for v in found) else tuple(found)
+
+
 def _checked_structural(cls: type[Component], field: Structural, value: Any) -> Any:
     wanted = field.annotation
+    if wanted is tuple:
+        found = numbers(value)
+        if found is None:
+            raise DeclarationError(
+                f"`{cls.__name__}({field.name}={value!r})`: `{field.name}` takes a sequence of numbers, or one of rows "
+                f"of numbers, not {type(value).__name__} {call_site()}"
+            )
+        return found
     integer = wanted is int and hasattr(value, "__index__") and not isinstance(value, bool)
     if type(value) is not wanted and not integer:
         raise DeclarationError(
@@ -505,78 +572,8 @@ def call_site() -> str:
     return ""
 
 
-def modify(model: C, changes: Mapping[str, Value]) -> C:
-    """A copy of `model` with fields at dotted paths changed; the original is untouched.
-
-    Args:
-        model: a component.
-        changes: by dotted path, a number, a `start`, a structural value or a component: ``{"valve.area": 2e-4}``.
-
-    Raises:
-        DeclarationError: a path that the model does not have, or a value of the wrong type.
-    """
-    result = model
-    for path, value in changes.items():
-        result = _modify_one(result, result, path.split("."), value, path)
-    return result
-
-
-def redeclare(model: C, replacements: Mapping[str, Component]) -> C:
-    """A variant of `model` with sub-components at dotted paths replaced; modifications that both classes know stay.
-
-    Args:
-        model: a component.
-        replacements: by dotted path, the new sub-component, of the declared type or a subclass.
-
-    Raises:
-        DeclarationError: a path that the model does not have, or a replacement of the wrong type.
-    """
-    for path, value in replacements.items():
-        if not isinstance(value, (Component, Array)):
-            raise DeclarationError(f"redeclare: `{path}` needs a component, not {type(value).__name__} {call_site()}")
-    return modify(model, cast("Mapping[str, Value]", replacements))
-
-
-def _modify_one(given: C, effective: Component, parts: list[str], value: Any, path: str) -> C:
-    """`given` with one more modification; `effective` is the same component with its declaration's modifications."""
-    head = parts[0]
-    cls = type(effective)
-    if len(parts) == 1:
-        old = given.__dict__["_mods"].get(head)
-        checked = _checked(cls, head, value)
-        return with_modifications(given, {head: checked if old is None else merged(old, checked)})
-    if head not in cls._children:
-        name, index, _ = head.partition("[")
-        if index and name in cls._children:
-            raise DeclarationError(
-                f"`{path}`: elements of `{name}` are not modified one by one: leave the index out to modify all of "
-                f"them, or give a value for each, `{name}=Array(..., n, field=[...])` {call_site()}"
-            )
-        hint = nearest(name, cls._children)
-        raise DeclarationError(f"`{path}`: class `{cls.__name__}` has no sub-component `{name}`.{hint} {call_site()}")
-    child = effective_child(effective, head)
-    child = child.component if isinstance(child, Shared) else child
-    below = given.__dict__["_mods"].get(head)
-    if isinstance(child, Array):
-        element = below._element if isinstance(below, Array) else below if isinstance(below, Component) else None
-        changed = _modify_one(element or _bare(child._element), child._element, parts[1:], value, path)
-        if isinstance(below, Array):
-            return with_modifications(given, {head: Array(changed, below._count, **below._values)})
-        return with_modifications(given, {head: changed})
-    if not isinstance(child, Component):
-        raise DeclarationError(f"`{path}`: `{head}` is a list of components: give a new list {call_site()}")
-    return with_modifications(given, {head: _modify_one(below or _bare(child), child, parts[1:], value, path)})
-
-
-def _bare(component: C) -> C:
-    """A component of the same class without modifications, whatever its declarations need."""
-    bare = object.__new__(type(component))
-    bare.__dict__["_mods"], bare.__dict__["_path"] = {}, ()
-    return bare
-
-
 class Connector(Component, partial=True):
     """An interface: potentials (equal over a connection) and flows (sum to zero, positive into the component)."""
 
 
-__all__ = ["Array", "Component", "Connector", "Equations", "Self", "inner", "modify", "outer", "redeclare"]
+__all__ = ["Array", "Component", "Connector", "Equations", "Self", "conditional", "inner", "outer"]

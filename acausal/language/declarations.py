@@ -254,7 +254,7 @@ class Parameter(Declaration):
 
 
 class Structural:
-    """Descriptor of a structural parameter (a plain int, bool or str of the class body)."""
+    """Descriptor of a structural parameter (a plain int, bool, str or tuple of numbers of the class body)."""
 
     def __init__(self, name: str, default: Any, annotation: type) -> None:
         self.name = name

@@ -1,0 +1,82 @@
+"""Variants of a model: fields at dotted paths changed, sub-components replaced."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, TypeVar, cast
+
+from ..errors import DeclarationError, nearest
+from .component import Array, Component, Shared, call_site, checked, effective_child, merged, with_modifications
+from .declarations import Value
+
+C = TypeVar("C", bound=Component)
+
+
+def modify(model: C, changes: Mapping[str, Value]) -> C:
+    """A copy of `model` with fields at dotted paths changed; the original is untouched.
+
+    Args:
+        model: a component.
+        changes: by dotted path, a number, a `start`, a structural value or a component: ``{"valve.area": 2e-4}``.
+
+    Raises:
+        DeclarationError: a path that the model does not have, or a value of the wrong type.
+    """
+    result = model
+    for path, value in changes.items():
+        result = _modify_one(result, result, path.split("."), value, path)
+    return result
+
+
+def redeclare(model: C, replacements: Mapping[str, Component]) -> C:
+    """A variant of `model` with sub-components at dotted paths replaced; modifications that both classes know stay.
+
+    Args:
+        model: a component.
+        replacements: by dotted path, the new sub-component, of the declared type or a subclass.
+
+    Raises:
+        DeclarationError: a path that the model does not have, or a replacement of the wrong type.
+    """
+    for path, value in replacements.items():
+        if not isinstance(value, (Component, Array)):
+            raise DeclarationError(f"redeclare: `{path}` needs a component, not {type(value).__name__} {call_site()}")
+    return modify(model, cast("Mapping[str, Value]", replacements))
+
+
+def _modify_one(given: C, effective: Component, parts: list[str], value: Any, path: str) -> C:
+    """`given` with one more modification; `effective` is the same component with its declaration's modifications."""
+    head = parts[0]
+    cls = type(effective)
+    if len(parts) == 1:
+        old = given.__dict__["_mods"].get(head)
+        changed = checked(cls, head, value)
+        return with_modifications(given, {head: changed if old is None else merged(old, changed)})
+    if head not in cls._children:
+        name, index, _ = head.partition("[")
+        if index and name in cls._children:
+            raise DeclarationError(
+                f"`{path}`: elements of `{name}` are not modified one by one: leave the index out to modify all of "
+                f"them, or give a value for each, `{name}=Array(..., n, field=[...])` {call_site()}"
+            )
+        hint = nearest(name, cls._children)
+        raise DeclarationError(f"`{path}`: class `{cls.__name__}` has no sub-component `{name}`.{hint} {call_site()}")
+    child = effective_child(effective, head)
+    child = child.component if isinstance(child, Shared) else child
+    below = given.__dict__["_mods"].get(head)
+    if isinstance(child, Array):
+        element = below._element if isinstance(below, Array) else below if isinstance(below, Component) else None
+        changed = _modify_one(element or _bare(child._element), child._element, parts[1:], value, path)
+        if isinstance(below, Array):
+            return with_modifications(given, {head: Array(changed, below._count, **below._values)})
+        return with_modifications(given, {head: changed})
+    if not isinstance(child, Component):
+        raise DeclarationError(f"`{path}`: `{head}` is a list of components: give a new list {call_site()}")
+    return with_modifications(given, {head: _modify_one(below or _bare(child), child, parts[1:], value, path)})
+
+
+def _bare(component: C) -> C:
+    """A component of the same class without modifications, whatever its declarations need."""
+    bare = object.__new__(type(component))
+    bare.__dict__["_mods"], bare.__dict__["_path"] = {}, ()
+    return bare
