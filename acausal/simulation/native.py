@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import InitializationError
+from acausal.language.template import Ints
 from acausal.lowering.bounds import check_parameters
 from acausal.lowering.c.generate import CSource, to_c
 from acausal.lowering.initial import EASE_ALGEBRAIC, given_starts
@@ -187,26 +188,29 @@ class NativeModel:
                 dp[first + np.array(seed.indices), k] = 1.0
         d_starts, starts = self._starts_tangent(library, started, dp)
         overrides = system._overrides(given.initial, np)
-        if not _own_conditions(problem, overrides):
-            raise InitializationError(
-                "the native engine does not differentiate a start that is given by a variable which is not a state "
-                f"(states are {', '.join(system.states)}); take engine='diffrax'"
-            )
         given_at = given_starts(problem, starts, overrides, np)
         dz = np.zeros((library.n, lanes))
         known = np.concatenate([low.schedule.states, low.schedule.tears])
         source, sign = problem.start_source[known], problem.start_sign[known]
         dz[:] = sign[:, None] * np.where(np.isnan(starts[source])[:, None], 0.0, d_starts[source])
         dz[low.n_x :] = 0.0
-        d_wanted = problem.start_sign[problem.targets, None] * d_starts[problem.start_source[problem.targets]]
+        ids = given_at.ids
+        d_wanted = problem.start_sign[ids, None] * d_starts[problem.start_source[ids]]
         position = {int(v): i for i, v in enumerate(low.schedule.states)}
+        further = [v for v in overrides if v not in position]  # their conditions come last
+        row = {v: len(ids) - len(further) + i for i, v in enumerate(further)}
+        d_wanted[len(ids) - len(further) :] = 0.0
         for k, seed in enumerate(seeds):
             for index, sign_of in zip(seed.indices, seed.signs, strict=True) if seed.kind == "initial" else ():
-                dz[position[index]] = 0.0
-                dz[position[index], k] = sign_of
-        j, rate = self._conditions_tangent(library, t0, started, dz, dp)
+                if index in row:
+                    d_wanted[row[index], k] = sign_of
+                else:
+                    dz[position[index]] = 0.0
+                    dz[position[index], k] = sign_of
+        own = not self.large and _own_conditions(problem, overrides)
+        j, rate = self._conditions_tangent(library, t0, started, dz, dp, None if own else ids)
         n_w, n_g = low.n_w, low.n_g
-        rate[n_w + n_g : n_w + n_g + len(problem.targets)] -= d_wanted
+        rate[n_w + n_g : n_w + n_g + len(ids)] -= d_wanted
         fixed = given_at.fixed if given_at.conditions else np.ones(low.n_x, bool)
         free = np.concatenate([np.flatnonzero(~fixed), low.n_x + np.arange(n_w)])
         ease = np.concatenate([problem.ease, EASE_ALGEBRAIC * low.w_nominal])[free]
@@ -227,21 +231,24 @@ class NativeModel:
         return d_starts, starts
 
     def _conditions_tangent(
-        self, library: NativeLibrary, t0: float, started: Started, dz: Floats, dp: Floats
+        self, library: NativeLibrary, t0: float, started: Started, dz: Floats, dp: Floats, ids: Ints | None
     ) -> tuple[Any, Floats]:
-        """Jacobian of the start's conditions with respect to z, and their tangents (n_i, lanes)."""
-        if not self.large:
+        """Jacobian of the start's conditions with respect to z, and their tangents (n_i, lanes).
+
+        `ids` are the variables whose start is a condition, where these are not those that were compiled.
+        """
+        if ids is None:
             slope = library.conditions(started.p, t0, started.z0)[1]
             return slope, library.conditions_tangent(started.p, dp, t0, started.z0, dz)
         problem = self.system.initial
         low = problem.lowered
         x, w = started.z0[: low.n_x], started.z0[low.n_x :]
         run = NumericRun(low, t0, x, w, started.p, np.arange(low.n_x), dz, dp)
-        extra = run.families(problem.families)[1]
-        rate = np.concatenate([run.residual[1], run.gradient[problem.targets], extra])
+        invariants, extra = (run.families(f)[1] for f in (low.schedule.invariants, problem.families))
+        rate = np.concatenate([run.residual[1], invariants, run.gradient[ids], extra])
         if not len(rate):
             return np.zeros((0, low.n_x + low.n_w)), rate
-        found = conditions_of(problem, t0, started.p, problem.targets, np.zeros(len(problem.targets)))
+        found = conditions_of(problem, t0, started.p, ids, np.zeros(len(ids)))
         if found is None:
             raise InitializationError(
                 "the start of this model is too large for the native engine's derivatives; take engine='diffrax'"

@@ -45,6 +45,17 @@ class Torn(Component):
         yield self.y + self.y**3 == self.a * self.x
 
 
+class Free(Torn):
+    """The same, with a guess of x: the start may be given by another variable."""
+
+    x: Variable = Variable(start=1.0)
+    z: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.z == self.x**2 + self.a * self.y
+
+
 class LinearBlock(Component):
     """Five simultaneous linear equations, solved numerically inside the right-hand side."""
 

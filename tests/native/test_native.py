@@ -14,7 +14,7 @@ from acausal import SimulationError
 from acausal.simulation import engines, native
 from acausal.simulation.native import native_model
 
-from .models import Balanced, Branches, Decay, Driven, LinearBlock, Pendulum, Torn
+from .models import Balanced, Branches, Decay, Driven, Free, LinearBlock, Pendulum, Torn
 
 TIGHT = 1e-11
 MODELS = [Decay, Balanced, Torn, LinearBlock, Pendulum, Branches]
@@ -23,7 +23,7 @@ LOOPED = [Decay, Balanced, Torn, LinearBlock, Branches, Driven]
 
 @pytest.fixture(scope="module")
 def systems() -> dict[type, ac.System]:
-    return {model: ac.compile(model()) for model in [*MODELS, Driven]}
+    return {model: ac.compile(model()) for model in [*MODELS, Driven, Free]}
 
 
 @pytest.fixture(scope="module")
@@ -118,6 +118,10 @@ CASES = [
     (Pendulum, ["g"], [], "y"),
     (Pendulum, ["L", "g"], [], "x"),
     (Branches, ["k"], ["x", "y"], "z"),
+    (Free, ["a"], ["y"], "x"),
+    (Free, ["a"], ["z"], "y"),
+    (Balanced, ["a"], [], "der(x)"),
+    (Pendulum, ["L"], ["y"], "tension"),
 ]
 
 
