@@ -59,6 +59,7 @@ def to_c(
     labels: Callable[[int], str] | None = None,
     *,
     loops: bool = False,
+    observe_tangent: bool = False,
 ) -> CSource:
     """C source of a compiled system.
 
@@ -67,6 +68,7 @@ def to_c(
         problem: its initialization, with the lowered equations.
         labels: name of a variable by number, for comments.
         loops: write families as loops, for systems that are too large to be written out.
+        observe_tangent: add the tangents of all variables, for systems that are written out.
 
     Raises:
         NotInC: the model calls Python functions; or it is large and has retained constraints.
@@ -76,7 +78,7 @@ def to_c(
             raise NotInC("a large model with retained constraints is left to the diffrax engine")
         text, tables = large_file(problem.lowered, program.flat.n_par, len(program.flat.inputs))
         return CSource(text, runtime_files(), tables)
-    return CSource(_Small(program, problem, labels).file(), runtime_files())
+    return CSource(_Small(program, problem, labels).file(observe_tangent), runtime_files())
 
 
 class _Small:
@@ -195,6 +197,20 @@ class _Small:
         values = [(f"all[{v}]", e) for v, e in zip(self.straight.known, self.observed, strict=True)]
         return self._function(f"AC_UNUSED static void ac_observe({_AT}, double *all)", values)
 
+    def observe_tangent(self) -> str:
+        """Tangents of all variables; time moves, too."""
+
+        def tangent(node: Expr) -> str | None:
+            return "dt" if node.op == "time" else self._tangent(node)
+
+        values = [(f"dall[{v}]", e) for v, e in zip(self.straight.known, self.observed, strict=True)]
+        writer = Writer(self.straight, self._leaf, tangent, self.hoisted)
+        body = [
+            "AC_UNUSED const double *p = m->p, *c = m->c;", "AC_UNUSED const ac_vector *dp = m->dp, *dc = m->dc;",
+            *writer.function((), values),
+        ]  # fmt: skip
+        return braces(f"AC_UNUSED static void ac_observe_tangent({_AT}, {_DT}, ac_vector *dall)", body)
+
     def constants(self, tangents: bool) -> str:
         """Expressions of parameters, and with tangents theirs."""
         values = [(f"c[{i}]", e) for i, e in enumerate(self.hoisted.nodes)]
@@ -234,11 +250,13 @@ class _Small:
         ]
 
     # ---- the file ---------------------------------------------------------------------------------
-    def file(self) -> str:
+    def file(self, observe_tangent: bool = False) -> str:
         """The whole file."""
         plan = self.plan()
         nominal = np.concatenate([self.lowered.x_nominal, self.lowered.w_nominal])
         functions, tangents, observe = self.functions(), self.tangent_functions(), self.observe()
+        if observe_tangent:
+            tangents.append(self.observe_tangent())
         constants, constants_tangent = self.constants(False), self.constants(True)
         sizes = {
             "AC_N": self.n_z, "AC_NX": self.n_x, "AC_NZ": len(self.field.entries), "AC_NF": max(plan.size, self.n_z),
@@ -270,6 +288,7 @@ class _Small:
 
 
 _AT = "const ac_model *m, double t, const double *z"
+_DT = "ac_vector dt, const ac_vector *dz"
 
 
 class _Block:

@@ -15,7 +15,9 @@ typedef double ac_vector __attribute__((vector_size(8 * AC_LANES), aligned(8)));
 static const ac_vector ac_zero = {0.0};
 
 #define AC_PIVOT 1e-12 /* a pivot this small beside its row is not trusted */
+#ifndef AC_EXPORT
 #define AC_EXPORT __attribute__((visibility("default")))
+#endif
 #define AC_UNUSED __attribute__((unused))
 
 static inline AC_UNUSED double ac_min(double a, double b) { return a <= b ? a : b; }
