@@ -126,7 +126,7 @@ class Array(Generic[C]):
 
     Args:
         element: the component that is repeated.
-        count: an integer, or the name of a structural parameter of the class.
+        count: an integer, or the name of a structural parameter or of a property of the class.
         **values: per-element values of the element's parameters or start values, sequences of length `count`.
     """
 
@@ -265,11 +265,15 @@ def effective_child(owner: Component, name: str) -> Any:
 
 def _with_length(owner: Component, name: str, child: Array[Any]) -> Array[Any]:
     count = child._count
-    length = getattr(owner, count) if isinstance(count, str) and count in type(owner)._structural else count
+    known = isinstance(count, str) and isinstance(
+        inspect.getattr_static(type(owner), count, None), (property, Structural)
+    )
+    length = getattr(owner, str(count)) if known else count
     if not isinstance(length, int) or isinstance(length, bool) or length < 0:
         raise DeclarationError(
             f"`{type(owner).__name__}.{name}`: the count {count!r} of a component array must be a non-negative integer "
-            f"or the name of a structural parameter of the class.{nearest(str(count), type(owner)._structural)}"
+            f"or the name of a structural parameter or property of the class."
+            f"{nearest(str(count), type(owner)._structural)}"
         )
     resolved = Array(child._element, count, **child._values)
     resolved._length = length
@@ -394,10 +398,10 @@ def _collect_one(
             )
         declarations[name] = value
     elif isinstance(value, Conditional):
-        if value.condition not in structural and not isinstance(cls.__dict__.get(value.condition), bool):
+        if not isinstance(inspect.getattr_static(cls, value.condition, None), (bool, property, Structural)):
             raise DeclarationError(
-                f"`{cls.__name__}.{name}` depends on `{value.condition}`, which is no boolean field declared in the "
-                f"class above it ({cls._source[0]}:{cls._source[1]})"
+                f"`{cls.__name__}.{name}` depends on `{value.condition}`, which is no boolean field or property of the "
+                f"class ({cls._source[0]}:{cls._source[1]})"
             )
         children[name] = descriptor = Child(name, value.component, annotation, value.condition)
         type.__setattr__(cls, name, descriptor)

@@ -65,7 +65,7 @@ def test_tables_are_sequences_of_numbers() -> None:
 
 
 def test_the_condition_must_be_a_field() -> None:
-    with pytest.raises(ac.DeclarationError, match="depends on `used`, which is no boolean field"):
+    with pytest.raises(ac.DeclarationError, match="depends on `used`, which is no boolean field or property"):
 
         class Wrong(Component):
             port: Port = conditional(Port(), "used")
