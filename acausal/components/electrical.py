@@ -206,7 +206,7 @@ class VoltageSource(OnePort, partial=True):
     """
 
     offset: Parameter = Parameter(0.0, unit="V", doc="voltage added to the signal")
-    start_time: Parameter = Parameter(0.0, unit="s", doc="time at which the signal begins")
+    startTime: Parameter = Parameter(0.0, unit="s", doc="time at which the signal begins")
 
 
 class ConstantVoltage(OnePort):
@@ -223,7 +223,7 @@ class ConstantVoltage(OnePort):
 
 
 class StepVoltage(VoltageSource):
-    """Voltage step, ``v = offset``, from `start_time` on ``offset + V``.
+    """Voltage step, ``v = offset``, from `startTime` on ``offset + V``.
 
     Source: Modelica.Electrical.Analog.Sources.StepVoltage.
     """
@@ -232,11 +232,11 @@ class StepVoltage(VoltageSource):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.v == self.offset + where(ac.time >= self.start_time, self.V, 0.0)
+        yield self.v == self.offset + where(ac.time >= self.startTime, self.V, 0.0)
 
 
 class SineVoltage(VoltageSource):
-    """Sine voltage, ``v = offset + V sin(2 pi f (t - start_time) + phase)``, and `offset` before `start_time`.
+    """Sine voltage, ``v = offset + V sin(2 pi f (t - startTime) + phase)``, and `offset` before `startTime`.
 
     Source: Modelica.Electrical.Analog.Sources.SineVoltage.
     """
@@ -247,8 +247,8 @@ class SineVoltage(VoltageSource):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        wave = self.V * sin(2 * PI * self.f * (ac.time - self.start_time) + self.phase)
-        yield self.v == self.offset + where(ac.time < self.start_time, 0.0, wave)
+        wave = self.V * sin(2 * PI * self.f * (ac.time - self.startTime) + self.phase)
+        yield self.v == self.offset + where(ac.time < self.startTime, 0.0, wave)
 
 
 class RampVoltage(VoltageSource):
@@ -262,7 +262,7 @@ class RampVoltage(VoltageSource):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.v == self.offset + self.V * ac.clip((ac.time - self.start_time) / self.duration, 0.0, 1.0)
+        yield self.v == self.offset + self.V * ac.clip((ac.time - self.startTime) / self.duration, 0.0, 1.0)
 
 
 class SignalVoltage(TwoPin):
@@ -295,22 +295,22 @@ class ConstantCurrent(OnePort):
 
 
 class StepCurrent(OnePort):
-    """Current step, ``i = offset``, from `start_time` on ``offset + I``.
+    """Current step, ``i = offset``, from `startTime` on ``offset + I``.
 
     Source: Modelica.Electrical.Analog.Sources.StepCurrent.
     """
 
     I: Parameter = Parameter(1.0, unit="A", doc="height of the step")  # noqa: E741
     offset: Parameter = Parameter(0.0, unit="A", doc="current before the step")
-    start_time: Parameter = Parameter(0.0, unit="s", doc="time of the step")
+    startTime: Parameter = Parameter(0.0, unit="s", doc="time of the step")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.i == self.offset + where(ac.time >= self.start_time, self.I, 0.0)
+        yield self.i == self.offset + where(ac.time >= self.startTime, self.I, 0.0)
 
 
 class SineCurrent(OnePort):
-    """Sine current, ``i = offset + I sin(2 pi f (t - start_time) + phase)``, and `offset` before `start_time`.
+    """Sine current, ``i = offset + I sin(2 pi f (t - startTime) + phase)``, and `offset` before `startTime`.
 
     Source: Modelica.Electrical.Analog.Sources.SineCurrent.
     """
@@ -319,12 +319,12 @@ class SineCurrent(OnePort):
     f: Parameter = Parameter(1.0, unit="Hz", doc="frequency")
     phase: Parameter = Parameter(0.0, unit="rad", doc="phase")
     offset: Parameter = Parameter(0.0, unit="A", doc="current added to the sine")
-    start_time: Parameter = Parameter(0.0, unit="s", doc="time at which the sine begins")
+    startTime: Parameter = Parameter(0.0, unit="s", doc="time at which the sine begins")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        wave = self.I * sin(2 * PI * self.f * (ac.time - self.start_time) + self.phase)
-        yield self.i == self.offset + where(ac.time < self.start_time, 0.0, wave)
+        wave = self.I * sin(2 * PI * self.f * (ac.time - self.startTime) + self.phase)
+        yield self.i == self.offset + where(ac.time < self.startTime, 0.0, wave)
 
 
 class SignalCurrent(OnePort):

@@ -12,8 +12,8 @@ class TwoSteps(blocks.SignalSource):
     Source: scenario *step* of the reference crane.
     """
 
-    first: blocks.Step = blocks.Step(offset=1.0, height=0.2, start_time=2.0)
-    second: blocks.Step = blocks.Step(height=-0.35, start_time=12.0)
+    first: blocks.Step = blocks.Step(offset=1.0, height=0.2, startTime=2.0)
+    second: blocks.Step = blocks.Step(height=-0.35, startTime=12.0)
 
     def equations(self) -> Equations:
         yield from super().equations()

@@ -66,7 +66,7 @@ class CurrentSources(Component):
     """Three current sources and a voltage ramp share one variable resistor."""
 
     constant: electrical.ConstantCurrent = electrical.ConstantCurrent(I=1.0)
-    stepped: electrical.StepCurrent = electrical.StepCurrent(I=0.5, start_time=0.5)
+    stepped: electrical.StepCurrent = electrical.StepCurrent(I=0.5, startTime=0.5)
     sine: electrical.SineCurrent = electrical.SineCurrent(I=0.1, f=2.0)
     signalled: electrical.SignalCurrent = electrical.SignalCurrent()
     signal: blocks.Constant = blocks.Constant(k=0.25)
@@ -306,7 +306,7 @@ class Cooling(Component):
     body: thermal.HeatCapacitor = thermal.HeatCapacitor(C=20.0, T=start(350.0, fixed=True))
     heater: thermal.FixedHeatFlow = thermal.FixedHeatFlow(Q_flow=30.0)
     sun: thermal.PrescribedHeatFlow = thermal.PrescribedHeatFlow()
-    shine: blocks.Pulse = blocks.Pulse(height=10.0, period=0.6, start_time=0.1)
+    shine: blocks.Pulse = blocks.Pulse(amplitude=10.0, period=0.6, startTime=0.1)
     wall: thermal.ThermalResistor = thermal.ThermalResistor(R=0.5)
     meter: thermal.HeatFlowSensor = thermal.HeatFlowSensor()
     outside: thermal.FixedTemperature = thermal.FixedTemperature(T=280.0)
@@ -331,8 +331,8 @@ class Cooling(Component):
 class SignalChain(Component):
     """Linear blocks, one after the other, on a sine and a step."""
 
-    sine: blocks.Sine = blocks.Sine(amplitude=2.0, f=0.5, phase=0.3, offset=0.1, start_time=0.2)
-    step: blocks.Step = blocks.Step(height=1.5, offset=-0.5, start_time=0.4)
+    sine: blocks.Sine = blocks.Sine(amplitude=2.0, f=0.5, phase=0.3, offset=0.1, startTime=0.2)
+    step: blocks.Step = blocks.Step(height=1.5, offset=-0.5, startTime=0.4)
     gain: blocks.Gain = blocks.Gain(k=3.0)
     add: blocks.Add = blocks.Add(k1=2.0, k2=-1.0)
     feedback: blocks.Feedback = blocks.Feedback()
@@ -341,7 +341,7 @@ class SignalChain(Component):
     second: blocks.SecondOrder = blocks.SecondOrder(w=8.0, D=0.4, y=start(0.0, fixed=True), yd=start(0.0, fixed=True))
     rate: blocks.Derivative = blocks.Derivative(k=1.0, T=0.05, x=start(0.0, fixed=True))
     pi: blocks.PIBlock = blocks.PIBlock(k=0.5, T=0.4, x=start(0.0, fixed=True))
-    pid: blocks.PID = blocks.PID(integral=start(0.0, fixed=True), filtered=start(0.0, fixed=True))
+    pid: blocks.PID = blocks.PID()
 
     def equations(self) -> Equations:
         yield connect(self.sine.y, self.gain.u)
@@ -361,10 +361,10 @@ class Nonlinear(Component):
     """Nonlinear blocks, a table, and two limited controllers of a lag, one with anti-windup."""
 
     table: blocks.TimeTable = blocks.time_table([0.0, 0.25, 0.75, 1.0], [0.0, 2.0, -2.0, 1.0])
-    limiter: blocks.Limiter = blocks.Limiter(u_max=0.8, u_min=-0.5)
-    zone: blocks.DeadZone = blocks.DeadZone(u_max=0.5, u_min=-0.5)
+    limiter: blocks.Limiter = blocks.Limiter(uMax=0.8, uMin=-0.5)
+    zone: blocks.DeadZone = blocks.DeadZone(uMax=0.5, uMin=-0.5)
     product: blocks.Product = blocks.Product()
-    switch: blocks.Switch = blocks.Switch()
+    switch: blocks.Switch = blocks.Switch(threshold=0.0)
     command: blocks.Step = blocks.Step(height=2.0)
     plain: blocks.LimPI = blocks.LimPI(Kp=2.0, Ki=4.0)
     plant: blocks.FirstOrder = blocks.FirstOrder(k=1.5, T=0.2, y=start(0.0, fixed=True))
