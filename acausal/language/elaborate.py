@@ -15,7 +15,7 @@ from ..errors import AcausalError, DeclarationError
 from ..symbolic.equation import Equation, Origin
 from ..symbolic.expr import Expr, as_expr, symbol
 from ..symbolic.traverse import leaves, substitute
-from .component import Array, Component, Connector, Shared, effective_child, merged, path_text, present, view
+from .component import Array, Component, Connector, Shared, effective_child, merged, numbers, path_text, present, view
 from .connections import Connect
 from .declarations import STATE_SELECT, Declaration, Kind, Start
 from .template import Attributes, Binding, ChildSlot, Path, Template, TemplateEquation
