@@ -293,7 +293,7 @@ def resolve_scope(child: Any, cls: type[Component], level: int) -> Any:
         copy._length = child._length
         return copy
     if isinstance(child, (list, tuple)):
-        return [resolve_scope(c, cls, level) for c in child]
+        return child if numbers(child) is not None else [resolve_scope(c, cls, level) for c in child]
     if isinstance(child, Component):
         mods = child.__dict__["_mods"]
         if not mods:
