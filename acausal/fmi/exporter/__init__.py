@@ -1,0 +1,1 @@
+"""Writing a system as a functional mock-up unit."""

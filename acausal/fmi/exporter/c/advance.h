@@ -1,0 +1,242 @@
+/* One instance in time: initialization, communication steps, retained constraints, saved states. */
+
+/* The call is refused unless the instance is in one of the modes of a mask. */
+static int fmu_refuse(const fmu_instance *f, const char *function, int modes) {
+    static const char *const name[] = {"instantiated", "initialization mode", "event mode", "continuous-time mode",
+                                       "step mode", "step failed", "terminated"};
+    if (f->s.mode & modes) return 0;
+    int k = 0;
+    while (f->s.mode >> (k + 1)) k++;
+    fmu_say(f, FMU_ERROR, "%s is not allowed in this state (%s)", function, name[k]);
+    return 1;
+}
+
+static int fmu_refuse_kind(const fmu_instance *f, const char *function, int kind) {
+    if (f->kind == kind) return 0;
+    fmu_say(f, FMU_ERROR, "%s is a function of %s, this instance is for %s", function,
+            kind == FMU_CO_SIMULATION ? "co-simulation" : "model exchange",
+            kind == FMU_CO_SIMULATION ? "model exchange" : "co-simulation");
+    return 1;
+}
+
+static int fmu_refuse_pointer(const fmu_instance *f, const char *function, int missing) {
+    if (missing) fmu_say(f, FMU_ERROR, "%s was given a null pointer", function);
+    return missing;
+}
+
+static int fmu_setup(fmu_instance *f, int tolerance_defined, double tolerance, double start, int stop_defined, double stop) {
+    if (!(start - start == 0.0) || (stop_defined && !(stop > start))) {
+        fmu_say(f, FMU_ERROR, "the experiment from t = %.9g s to %.9g s is not possible", start, stop);
+        return FMU_ERROR;
+    }
+    if (tolerance_defined && !(tolerance > 0.0 && tolerance < 1.0)) {
+        fmu_say(f, FMU_ERROR, "the relative tolerance %.3g is not between 0 and 1", tolerance);
+        return FMU_ERROR;
+    }
+    if (tolerance_defined) f->s.rtol = tolerance;
+    f->s.t = f->s.t_start = f->s.u_time = start;
+    f->start_known = 0;
+    fmu_forget(f);
+    return FMU_OK;
+}
+
+static int fmu_exit_initialization(fmu_instance *f) {
+    const int status = fmu_slopes(f);
+    if (status == FMU_OK) f->s.mode = f->kind == FMU_CO_SIMULATION ? FMU_STEP : FMU_EVENT;
+    return status;
+}
+
+/* From the time of the instance to t1; stops early where the solver fails. */
+static int fmu_do_step(fmu_instance *f, double t, double h) {
+    const double close = 1e-9 * ac_max(fabs(t), ac_max(fabs(h), 1e-6));
+    if (!(fabs(t - f->s.t) <= close) || !(h >= 0.0) || h - h != 0.0) {
+        fmu_say(f, FMU_ERROR, "a step of %.9g s at t = %.9g s is not possible: the instance is at t = %.9g s", h, t, f->s.t);
+        return FMU_ERROR;
+    }
+    const double t1 = t + h;
+    if (AC_N > AC_NX) {
+        const int status = fmu_slopes(f);
+        if (status != FMU_OK) return status;
+    }
+    if (!(t1 > f->s.t)) return FMU_OK;
+    ac_work *w = fmu_prepare(f);
+    ac_problem q;
+    memset(&q, 0, sizeof q);
+    q.t0 = q.t_end = f->s.t, q.t1 = t1, q.rtol = f->s.rtol, q.atol = f->atol, q.max_steps = FMU_MAX_STEPS;
+    q.smallest = 1e-14 * ac_max(fabs(t1), h);
+    for (int i = 0; i < AC_N; i++) f->atol[i] = 0.1 * f->s.rtol * ac_nominal[i];
+    memcpy(w->z, f->s.z, sizeof w->z);
+    const int result = AC_N > 0 ? ac_advance(&q, w, &f->s.control) : AC_DONE;
+    memcpy(f->s.z, w->z, sizeof w->z);
+    f->s.t = result == AC_DONE ? t1 : q.t_end;
+    fmu_forget(f);
+    f->algebraic_known = 1; /* they are part of the solution */
+    if (result == AC_DONE) return FMU_OK;
+    static const char *const why[] = {"", "too many steps", "the step size became too small", "a singular Jacobian"};
+    fmu_say(f, FMU_DISCARD, "the solver stopped at t = %.9g s on the way to %.9g s: %s", f->s.t, t1,
+            why[result <= AC_SINGULAR ? result : 0]);
+    f->s.mode = FMU_FAILED;
+    return FMU_DISCARD;
+}
+
+/* Whether the states have left the retained constraints further than the tolerance allows; they are put back if asked. */
+static int fmu_restore(fmu_instance *f, int put_back) {
+#if AC_NG > 0
+    if (fmu_slopes(f) != FMU_OK) return 0;
+    ac_work *w = fmu_prepare(f);
+    memcpy(w->z1, f->s.z, sizeof w->z1);
+    ac_project(w, NULL, f->s.t);
+    double drift = 0.0;
+    for (int i = 0; i < AC_NX; i++) drift = ac_max(drift, fabs(w->z1[i] - f->s.z[i]) / ac_nominal[i]);
+    if (put_back) {
+        memcpy(f->s.z, w->z1, sizeof w->z1);
+        fmu_forget(f);
+    }
+    return drift > ac_max(f->s.rtol, 1e-10);
+#else
+    (void)f, (void)put_back;
+    return 0;
+#endif
+}
+
+/* Event mode: nothing happens but that states go back onto retained constraints. 1 if states have changed. */
+static int fmu_update(fmu_instance *f) {
+    if (!f->s.drifted) return 0;
+    f->s.drifted = 0;
+    fmu_restore(f, 1);
+    return 1;
+}
+
+/* ---- saved states -------------------------------------------------------------------------------- */
+typedef struct {
+    unsigned magic, kind;
+    char token[sizeof FMU_TOKEN];
+    fmu_state s;
+} fmu_saved;
+
+static int fmu_is_saved(const fmu_instance *f, const fmu_saved *saved) {
+    if (saved && saved->magic == FMU_MAGIC + 1 && !memcmp(saved->token, FMU_TOKEN, sizeof FMU_TOKEN) &&
+        saved->kind == (unsigned)f->kind)
+        return 1;
+    fmu_say(f, FMU_ERROR, "this is not a saved state of the model `%s`", FMU_NAME);
+    return 0;
+}
+
+static fmu_saved *fmu_new_saved(const fmu_instance *f) {
+    fmu_saved *saved = calloc(1, sizeof *saved);
+    if (saved) {
+        saved->magic = FMU_MAGIC + 1, saved->kind = (unsigned)f->kind;
+        memcpy(saved->token, FMU_TOKEN, sizeof FMU_TOKEN);
+    } else {
+        fmu_say(f, FMU_ERROR, "there is no memory for a saved state");
+    }
+    return saved;
+}
+
+static int fmu_save(fmu_instance *f, void **place) {
+    if (*place && !fmu_is_saved(f, *place)) return FMU_ERROR;
+    if (!*place) *place = fmu_new_saved(f);
+    if (!*place) return FMU_ERROR;
+    ((fmu_saved *)*place)->s = f->s;
+    return FMU_OK;
+}
+
+static int fmu_load(fmu_instance *f, const void *place) {
+    if (!fmu_is_saved(f, place)) return FMU_ERROR;
+    f->s = ((const fmu_saved *)place)->s;
+    f->constants_known = f->start_known = 0;
+    fmu_forget(f);
+    f->algebraic_known = f->s.mode != FMU_INITIALIZATION && f->s.mode != FMU_INSTANTIATED;
+    return FMU_OK;
+}
+
+static int fmu_drop(const fmu_instance *f, void **place) {
+    if (*place) {
+        if (!fmu_is_saved(f, *place)) return FMU_ERROR;
+        ((fmu_saved *)*place)->magic = 0;
+        free(*place);
+    }
+    *place = NULL;
+    return FMU_OK;
+}
+
+static int fmu_to_bytes(const fmu_instance *f, const void *place, void *bytes, size_t size) {
+    if (!fmu_is_saved(f, place)) return FMU_ERROR;
+    if (size < sizeof(fmu_saved)) {
+        fmu_say(f, FMU_ERROR, "a serialized state needs %lu bytes, not %lu", (unsigned long)sizeof(fmu_saved), (unsigned long)size);
+        return FMU_ERROR;
+    }
+    memcpy(bytes, place, sizeof(fmu_saved));
+    return FMU_OK;
+}
+
+static int fmu_from_bytes(const fmu_instance *f, const void *bytes, size_t size, void **place) {
+    if (size < sizeof(fmu_saved)) {
+        fmu_say(f, FMU_ERROR, "a serialized state has %lu bytes, not %lu", (unsigned long)sizeof(fmu_saved), (unsigned long)size);
+        return FMU_ERROR;
+    }
+    fmu_saved *saved = fmu_new_saved(f);
+    if (!saved) return FMU_ERROR;
+    memcpy(saved, bytes, sizeof *saved);
+    if (!fmu_is_saved(f, saved)) return free(saved), FMU_ERROR;
+    if (*place && fmu_drop(f, place) != FMU_OK) return free(saved), FMU_ERROR;
+    *place = saved;
+    return FMU_OK;
+}
+
+/* ---- model exchange ------------------------------------------------------------------------------ */
+static int fmu_refuse_size(const fmu_instance *f, size_t given, int wanted, const char *what) {
+    if (given == (size_t)wanted) return 0;
+    fmu_say(f, FMU_ERROR, "the model has %d %s, not %lu", wanted, what, (unsigned long)given);
+    return 1;
+}
+
+static int fmu_set_time(fmu_instance *f, double t) {
+    if (!(t - t == 0.0)) {
+        fmu_say(f, FMU_ERROR, "the time is not a finite number");
+        return FMU_ERROR;
+    }
+    if (t != f->s.t) fmu_forget(f);
+    f->s.t = t;
+    return FMU_OK;
+}
+
+static int fmu_set_states(fmu_instance *f, const double *x, size_t n) {
+    if (fmu_refuse_size(f, n, AC_NX, "continuous states")) return FMU_ERROR;
+    for (int i = 0; i < AC_NX; i++)
+        if (!(x[i] - x[i] == 0.0)) {
+            fmu_say(f, FMU_ERROR, "the value for state %d is not a finite number", i);
+            return FMU_ERROR;
+        }
+    for (int i = 0; i < AC_NX; i++) f->s.z[i] = x[i];
+    fmu_forget(f);
+    return FMU_OK;
+}
+
+static int fmu_get_states(fmu_instance *f, double *x, size_t n) {
+    if (fmu_refuse_size(f, n, AC_NX, "continuous states")) return FMU_ERROR;
+    const int status = f->s.mode == FMU_INITIALIZATION ? fmu_slopes(f) : FMU_OK;
+    if (status != FMU_OK) return status;
+    for (int i = 0; i < AC_NX; i++) x[i] = f->s.z[i];
+    return FMU_OK;
+}
+
+static int fmu_get_slopes(fmu_instance *f, double *dx, size_t n) {
+    if (fmu_refuse_size(f, n, AC_NX, "continuous states")) return FMU_ERROR;
+    const int status = fmu_slopes(f);
+    if (status != FMU_OK) return status;
+    for (int i = 0; i < AC_NX; i++) dx[i] = f->slopes[i];
+    return FMU_OK;
+}
+
+static int fmu_get_nominals(const fmu_instance *f, double *nominals, size_t n) {
+    if (fmu_refuse_size(f, n, AC_NX, "continuous states")) return FMU_ERROR;
+    for (int i = 0; i < AC_NX; i++) nominals[i] = ac_nominal[i];
+    return FMU_OK;
+}
+
+/* The model has no state events. */
+static int fmu_get_indicators(const fmu_instance *f, double *indicators, size_t n) {
+    (void)indicators;
+    return fmu_refuse_size(f, n, FMU_INDICATORS, "event indicators") ? FMU_ERROR : FMU_OK;
+}
