@@ -168,7 +168,11 @@ class System:
         return self.program.evaluate(parameters or {}, jnp)
 
     def initialize(
-        self, t0: Any = 0.0, parameters: Mapping[str, Any] | None = None, initial: Mapping[str, Any] | None = None
+        self,
+        t0: Any = 0.0,
+        parameters: Mapping[str, Any] | None = None,
+        initial: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, Any] | None = None,
     ) -> tuple[Any, Any, Any]:
         """Consistent start: states x0, algebraic unknowns w0, and the parameter vector p. Pure JAX.
 
@@ -177,34 +181,56 @@ class System:
             parameters: dotted name to value.
             initial: dotted name of a variable to its value at the start; it replaces the declared start value and holds
                 exactly.
+            inputs: name of an input of the model to its value at the start.
         """
-        x0, w0, p, _ = self.initialize_with_residual(t0, parameters, initial)
+        x0, w0, p, _ = self.initialize_with_residual(t0, parameters, initial, inputs)
         return x0, w0, p
 
     def initialize_with_residual(
-        self, t0: Any, parameters: Mapping[str, Any] | None, initial: Mapping[str, Any] | None
+        self,
+        t0: Any,
+        parameters: Mapping[str, Any] | None,
+        initial: Mapping[str, Any] | None,
+        inputs: Mapping[str, Any] | None = None,
     ) -> tuple[Any, Any, Any, Any]:
         """As `initialize`, with the relative residuals of the initial conditions."""
-        found = self.initialize_numeric(t0, parameters, initial)
+        found = self.initialize_numeric(t0, parameters, initial, inputs)
         if found is not None:
             return found
         import jax.numpy as jnp
 
-        p = self.parameter_vector(parameters)
+        p = self._fed(self.parameter_vector(parameters), inputs, jnp)
         starts = self.program.starts(p, jnp)
         x0, w0, left = solve_initial(self.initial, t0, p, starts, self._overrides(initial, jnp))
         return x0, w0, p, left
 
     def initialize_numeric(
-        self, t0: Any, parameters: Mapping[str, Any] | None, initial: Mapping[str, Any] | None
+        self,
+        t0: Any,
+        parameters: Mapping[str, Any] | None,
+        initial: Mapping[str, Any] | None,
+        inputs: Mapping[str, Any] | None = None,
     ) -> tuple[Any, Any, Any, Any] | None:
         """As `initialize_with_residual`, with NumPy and at once; None inside JAX transformations or if it is large."""
-        if not is_concrete((t0, dict(parameters or {}), dict(initial or {}))):
+        if not is_concrete((t0, dict(parameters or {}), dict(initial or {}), dict(inputs or {}))):
             return None
-        p = self.program.evaluate(parameters or {}, np)
+        p = self._fed(self.program.evaluate(parameters or {}, np), inputs, np)
         starts = self.program.starts(p, np)
         found = solve_numeric(self.initial, float(t0), p, starts, self._overrides(initial, np))
         return None if found is None else (found[0], found[1], p, found[2])
+
+    def _fed(self, p: Any, inputs: Mapping[str, Any] | None, xp: Any) -> Any:
+        """The parameter vector with values of inputs in their places."""
+        if not inputs:
+            return p
+        first = self.program.flat.n_par
+        places = np.array([first + self.input_names.index(name) for name in inputs])
+        values = xp.stack([xp.asarray(v, float) for v in inputs.values()])
+        if xp is not np:
+            return p.at[places].set(values)
+        p = p.copy()
+        p[places] = values
+        return p
 
     def _overrides(self, initial: Mapping[str, Any] | None, xp: Any) -> dict[int, Any]:
         """Further fixed starts: reduced variable index to value."""

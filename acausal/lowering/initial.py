@@ -8,7 +8,7 @@ steps (Deuflhard 2011, Newton Methods for Nonlinear Problems, 4.4).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy import sparse
@@ -29,6 +29,14 @@ ACCEPTED = 1e-6
 """A condition holds if moving one variable by this fraction of its nominal value could make it hold exactly. Newton's
 method leaves much less; what is left is the rounding of start values that are given twice, as all coordinates of a
 mechanism."""
+HOMOTOPY_STEPS = 20
+ASIDE = (1e-3, 1e-3, 0.1, 0.1, 1.0, 1.0)
+"""Distances from the guess, in nominal values, of further attempts."""
+SATISFIED = 1e-9
+"""Relative residual from which no other attempt is made."""
+SMALLEST_STEP = 1e-15
+"""Step, in units of the variables' scales, that changes nothing any more."""
+MOST_TRIED = 300
 LARGEST = 1000
 """Up to so many unknowns the conditions are solved together; beyond, only for the states that they concern."""
 
@@ -114,8 +122,7 @@ def solve_initial(
     given = given_starts(problem, starts, overrides, jnp)
     x_start, w_start, ids, wanted = given.x, given.w, given.ids, given.wanted
     if not given.conditions:
-        w0 = low.solve_algebraic(t0, x_start, w_start, p) if low.n_w else w_start
-        return x_start, w0, jnp.zeros(0)
+        return x_start, _algebraic(low, t0, x_start, w_start, p) if low.n_w else w_start, jnp.zeros(0)
     free = np.flatnonzero(~given.fixed)
     together = len(free) + low.n_w <= LARGEST
     if not together:
@@ -223,6 +230,118 @@ def _start_of(problem: InitialProblem, ids: Ints, starts: Any, xp: Any) -> Any:
     return xp.where(xp.isnan(values), 0.0, values)
 
 
+def _algebraic(low: Lowered, t0: Any, x: Any, w_start: Any, p: Any) -> Any:
+    """Algebraic unknowns (n_w,) at given states; where Newton's method fails from the guess, all equations together."""
+    import jax
+    import jax.numpy as jnp
+
+    if low.n_w > LARGEST:
+        return low.solve_algebraic(t0, x, w_start, p)
+    at = jax.lax.stop_gradient((t0, x, p))
+    guess = jax.lax.stop_gradient(w_start)
+
+    def together(near: Any) -> Any:
+        del near
+        scale = jnp.asarray(EASE_ALGEBRAIC * low.w_nominal)
+        return _search(lambda w: low.derivatives(at[0], at[1], w, at[2])[1], guess, scale, jnp.asarray(low.w_nominal))
+
+    near = low.solve_algebraic(at[0], at[1], guess, at[2])
+    near = jax.lax.cond(jnp.isfinite(near).all(), lambda near: near, together, near)
+    return low.solve_algebraic(t0, x, jax.lax.stop_gradient(near), p)
+
+
+class _Search(NamedTuple):
+    """Where the search for a root is.
+
+    Attributes:
+        y, residual, size, delta: the present point, its residuals, the size of each row, and the step from it.
+        left: largest residual at y of the whole conditions, relative to nominal values.
+        factor: part of the step to be tried; 0 to begin at y.
+        tried: points tried in this attempt.
+        attempt: 0 from the guess, then the conditions turned on gradually, then from beside the guess.
+        best, best_left: of the attempts that are over.
+    """
+
+    y: Any
+    residual: Any
+    size: Any
+    delta: Any
+    left: Any
+    factor: Any
+    tried: Any
+    attempt: Any
+    best: Any
+    best_left: Any
+
+
+def _search(system: Any, start: Any, scale: Any, nominal: Any) -> Any:
+    """Root of `system` near `start`: steps of least norm, halved until the residual falls, as `root_near` takes them.
+
+    Where they fail, the conditions are turned on gradually, then it begins beside the guess. One loop does it all, so
+    that the equations are compiled once.
+
+    Args:
+        system: y to residuals (m,).
+        start: guess (n,).
+        scale, nominal: scales in which the unknowns are moved, and their typical sizes (n,).
+    """
+    import jax
+    import jax.numpy as jnp
+
+    value_and_slope = jax.jacfwd(lambda y: (lambda r: (r, r))(system(y)), has_aux=True)
+    whole = system(start)
+    whole = jnp.where(jnp.isfinite(whole).all(), whole, 0.0)
+    random = np.random.default_rng(1)
+    aside = jnp.asarray([size * random.uniform(-1, 1, start.shape) for size in ASIDE]) * nominal
+    first_aside = HOMOTOPY_STEPS + 1
+
+    def share(attempt: Any) -> Any:
+        gradual = (attempt > 0) & (attempt < first_aside)
+        return jnp.where(gradual, 1.0 - attempt / HOMOTOPY_STEPS, 0.0)
+
+    def visit(state: _Search) -> _Search:
+        y = state.y + state.factor * state.delta * scale
+        j, all_of = value_and_slope(y)
+        r = all_of - share(state.attempt) * whole
+        nominal_size = _row_size(j * nominal)
+        size = jnp.maximum(_row_size(j * scale), nominal_size)
+        norm, before = (jnp.linalg.norm(v / state.size) for v in (r, state.residual))
+        better = (state.factor == 0.0) | (norm < before)
+        delta = jnp.linalg.lstsq(j * scale / size[:, None], -r / size, rcond=1e-11)[0]
+        delta = jnp.where(jnp.isfinite(delta), delta, 0.0)
+        left = jnp.max(jnp.where(jnp.isfinite(all_of), jnp.abs(all_of) / nominal_size, jnp.inf), initial=0.0)
+        moved = state._replace(y=y, residual=r, size=size, delta=delta, left=left, factor=jnp.ones(()))
+        kept = state._replace(factor=0.5 * state.factor)
+        state = jax.tree.map(lambda a, b: jnp.where(better, a, b), moved, kept)
+        return state._replace(tried=state.tried + 1)
+
+    def settle(state: _Search) -> _Search:
+        """The end of an attempt, and the beginning of the next one."""
+        counts = (share(state.attempt) == 0.0) & (state.left < state.best_left)
+        best = jnp.where(counts, state.y, state.best)
+        attempt = state.attempt + 1
+        begin = jnp.where(attempt == 1, start, state.y)
+        begin = jnp.where(attempt >= first_aside, start + aside[attempt - first_aside], begin)
+        return state._replace(
+            y=begin, factor=jnp.zeros(()), tried=jnp.zeros((), int), attempt=attempt, best=best,
+            best_left=jnp.where(counts, state.left, state.best_left),
+        )  # fmt: skip
+
+    def body(state: _Search) -> _Search:
+        state = visit(state)
+        stands = state.factor * jnp.max(jnp.abs(state.delta), initial=0.0) < SMALLEST_STEP
+        over = stands | (state.factor <= 1e-9) | (state.tried >= MOST_TRIED)
+        return jax.tree.map(lambda a, b: jnp.where(over, a, b), settle(state), state)
+
+    def again(state: _Search) -> Any:
+        return (state.best_left > SATISFIED) & (state.attempt < first_aside + len(ASIDE))
+
+    zero, none = jnp.zeros(()), jnp.zeros(start.shape)
+    rest = jnp.zeros(whole.shape), jnp.ones(whole.shape)
+    state = _Search(start, *rest, none, zero, zero, jnp.zeros((), int), jnp.zeros((), int), start, jnp.asarray(jnp.inf))
+    return jax.lax.while_loop(again, body, state).best
+
+
 def _gauss_newton(residual: Any, y_start: Any, scale: Any, nominal: Any, context: Any) -> tuple[Any, Any]:
     """Nearest root to `y_start`, and its residual (relative to the scale of each equation).
 
@@ -237,40 +356,9 @@ def _gauss_newton(residual: Any, y_start: Any, scale: Any, nominal: Any, context
     def f(y: Any) -> Any:
         return residual(y, frozen)
 
-    jac = jax.jacfwd(f)
-
-    def step_of(y: Any) -> tuple[Any, Any]:
-        r, j = f(y), jac(y) * scale
-        row = _row_size(j)
-        delta = jnp.linalg.lstsq(j / row[:, None], -r / row, rcond=1e-11)[0]
-        return delta, jnp.linalg.norm(r / row)
-
-    def body(state: Any) -> Any:
-        y, _, k = state
-        delta, size = step_of(y)
-        delta = jnp.where(jnp.isfinite(delta), delta, 0.0)
-
-        def worse(s: Any) -> Any:
-            return (~(s[1] < size)) & (s[0] > 1e-9)
-
-        def halve(s: Any) -> Any:
-            factor = 0.5 * s[0]
-            return factor, step_of(y + factor * delta * scale)[1]
-
-        factor, new = jax.lax.while_loop(worse, halve, (jnp.ones(()), step_of(y + delta * scale)[1]))
-        moved = jnp.abs(factor * delta).max(initial=0.0)
-        y = jnp.where(new < size, y + factor * delta * scale, y)
-        return y, jnp.where(new < size, moved, 0.0), k + 1
-
-    def again(state: Any) -> Any:
-        return (state[1] > 1e-15) & (state[2] < 80)
-
     start = jax.lax.stop_gradient(y_start)
-    flat = (jnp.abs(jac(start)).max(axis=1, initial=0.0) == 0) & (jnp.abs(f(start)) > 0)
-    aside = start + 1e-3 * nominal * np.random.default_rng(1).uniform(-1, 1, start.shape)
-    y, _, _ = jax.lax.while_loop(again, body, (jnp.where(flat.any(), aside, start), jnp.asarray(jnp.inf), 0))
-    y = jax.lax.stop_gradient(y)
-    j = jax.lax.stop_gradient(jac(y)) * scale
+    y = jax.lax.stop_gradient(_search(f, start, scale, nominal))
+    j = jax.lax.stop_gradient(jax.jacfwd(f)(y)) * scale
     row = _row_size(j)
     pseudo = jnp.linalg.pinv(j / row[:, None], rtol=1e-11)
     r = residual(y, context)

@@ -35,8 +35,11 @@ class DrivenLowered:
     def at(self, t: Any, p: Driven) -> Array:
         """The parameter vector at time t."""
         vector, data = p
-        values = [jnp.asarray(signal(t, d), float) for signal, d in zip(self.signals, data, strict=True)]
-        return vector.at[self.places].set(jnp.stack(values))
+        return vector.at[self.places].set(jnp.stack(self.values(t, data)))
+
+    def values(self, t: Any, data: tuple[Any, ...]) -> list[Array]:
+        """Values of the inputs at time t."""
+        return [jnp.asarray(signal(t, d), float) for signal, d in zip(self.signals, data, strict=True)]
 
     def derivatives(self, t: Any, x: Array, w: Array, p: Any) -> tuple[Array, Array]:
         return self.lowered.derivatives(t, x, w, self.at(t, p))

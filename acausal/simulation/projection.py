@@ -102,6 +102,11 @@ class _Wrapped(AbstractWrappedSolver[Any]):
         return self.solver.term_compatible_contr_kwargs
 
     @property
+    def scan_kind(self) -> Any:
+        """Of Runge-Kutta solvers: how their stages are looped over."""
+        return self.solver.scan_kind  # pyright: ignore[reportAttributeAccessIssue]
+
+    @property
     def root_finder(self) -> Any:
         """Of implicit solvers: diffrax sets its tolerances."""
         return self.solver.root_finder  # pyright: ignore[reportAttributeAccessIssue]

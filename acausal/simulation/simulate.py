@@ -109,12 +109,14 @@ def simulate(
     if engine not in ("auto", "diffrax"):
         raise SimulationError(f"There is no engine {engine!r} here; take 'diffrax' or 'auto'.")
     ensure_x64()
-    x0, w0, p, start_seconds = start(system, t0, parameters, initial, check=throw)
     lowered: Lowered = system.lowered
     if inputs:
         lowered, numbers = drive(system, inputs)
+        at_start = dict(zip(inputs, lowered.values(t0, numbers), strict=True))
+        x0, w0, p, start_seconds = start(system, t0, parameters, initial, at_start, check=throw)
         p = (p, numbers)
-        w0 = lowered.solve_algebraic(jnp.asarray(t0, float), x0, w0, p) if len(lowered.w_nominal) else w0
+    else:
+        x0, w0, p, start_seconds = start(system, t0, parameters, initial, {}, check=throw)
     n_x, _, _ = dimensions(lowered)
     method = _with_linear_solver(_solver(solver), lowered)
     points, kind = _output(saveat, t0, t1)
@@ -127,6 +129,7 @@ def simulate(
         # nobody differentiates a run with plain numbers: without checkpoints it compiles faster
         plain = not traced and isinstance(method, Rodas5P)
         adjoint = diffrax.ForwardMode() if plain else diffrax.RecursiveCheckpointAdjoint()
+    method = _for_adjoint(method, adjoint)
     settings = _Settings(
         solver=method,
         saveat=kind,
@@ -383,6 +386,17 @@ def _solver(given: diffrax.AbstractSolver[Any] | str | None) -> diffrax.Abstract
             "or take engine='native' for 'adams'."
         )
     return given
+
+
+def _for_adjoint(solver: Any, adjoint: Any) -> Any:
+    """A Runge-Kutta solver with the loop over its stages that the adjoint can differentiate.
+
+    Diffrax sets it itself, but not inside of a wrapper.
+    """
+    kinds: dict[type, str] = {diffrax.ForwardMode: "lax", diffrax.DirectAdjoint: "bounded"}
+    if not isinstance(solver, diffrax.AbstractRungeKutta) or solver.scan_kind is not None or type(adjoint) not in kinds:
+        return solver
+    return eqx.tree_at(lambda s: s.scan_kind, solver, kinds[type(adjoint)], is_leaf=lambda v: v is None)
 
 
 def _with_linear_solver(solver: Any, lowered: Lowered) -> Any:

@@ -17,24 +17,27 @@ def start(
     t0: Any,
     parameters: Mapping[str, Any] | None,
     initial: Mapping[str, Any] | None,
+    inputs: Mapping[str, Any],
     *,
     check: bool,
 ) -> tuple[Any, Any, Any, float]:
-    """States, tearing variables and parameters at `t0`, and the seconds of compiling.
+    """States, tearing variables and parameters at `t0`, and the seconds of compiling; `inputs` are values at `t0`.
 
     The system's `initialize` runs as one compiled program; other values of the same names reuse it. If the system
     offers `initialize_with_residual` and `check_initial`, the start is checked (not inside JAX transformations).
     """
     given = {name: jnp.asarray(value, float) for name, value in (parameters or {}).items()}
     starts = {name: jnp.asarray(value, float) for name, value in (initial or {}).items()}
+    fed = {name: jnp.asarray(value, float) for name, value in inputs.items()}
+    further = (fed,) if fed else ()  # the protocol asks systems without inputs for three arguments only
     at_once = getattr(system, "initialize_numeric", None)
-    found = at_once(t0, parameters, initial) if at_once is not None else None
+    found = at_once(t0, parameters, initial, *further) if at_once is not None else None
     if found is not None:
         if check:
             system.check_initial(*found, t0)
         x0, w0, p, _ = (jnp.asarray(a, float) for a in found)
         return x0, w0, p, 0.0
-    arguments = (jnp.asarray(t0, float), given, starts)
+    arguments = (jnp.asarray(t0, float), given, starts, *further)
     with_residual = getattr(system, "initialize_with_residual", None)
     cache = cache_of(system.lowered)
     if "start" not in cache:

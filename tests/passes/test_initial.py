@@ -242,3 +242,67 @@ def test_many_invariants(n: int) -> None:
     assert at["pendulum[1].x"] == pytest.approx(0.6, abs=1e-3)
     assert at["pendulum[1].y"] == pytest.approx(-0.8, abs=1e-3)
     assert at["pendulum[1].v"] == pytest.approx(0.75, abs=1e-3)
+
+
+class Steep(Component):
+    """Newton's method from the guess runs into a valley of the residual that holds no root."""
+
+    y: Variable = Variable(start=1.5)
+    x: Variable = Variable(start=1.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == -self.y
+        yield self.y**3 - 2 * self.y + 2 + self.x == 1.0
+
+
+class SteepStart(Steep):
+    """The same as a condition of the start."""
+
+    x: Variable = Variable(start=1.0)
+
+    def initial_equations(self) -> Equations:
+        yield self.x + 0.1 * self.x**3 == 1.1
+
+
+@pytest.mark.parametrize("model", [Steep, SteepStart])
+def test_other_attempts_are_made_inside_jax_too(model: type[Component]) -> None:
+    system = ac.compile(model())
+    w0 = system.initialize()[1]
+    inside = jax.jit(lambda t: system.initialize(t)[1])(0.0)
+    assert abs(float(w0[0])) == pytest.approx(1.7692923542386314, abs=1e-12)
+    assert float(inside[0]) == pytest.approx(float(w0[0]), abs=1e-12)
+
+
+class Fed(Component):
+    """A start that depends on the input at that time."""
+
+    u: ac.Input = ac.Input()
+    x: Variable = Variable(start=0.0)
+    y: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.u - self.x
+        yield self.y + self.y**3 == self.u
+
+    def initial_equations(self) -> Equations:
+        yield der(self.x) == 0
+
+
+@pytest.mark.parametrize("u", [2.0, (np.array([0.0, 4.0]), np.array([1.0, 3.0]))], ids=["number", "table"])
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_the_start_sees_the_inputs(u: Any, engine: Any) -> None:
+    system = ac.compile(Fed())
+    solution = system.simulate(2.5, t0=2.0, inputs={"u": u}, engine=engine, saveat=3)
+    assert solution["x"][0] == pytest.approx(2.0, abs=1e-12)
+    assert solution["y"][0] == pytest.approx(1.0, abs=1e-12)
+
+
+def test_the_start_sees_an_input_that_is_a_function() -> None:
+    system = ac.compile(Fed())
+    solution = system.simulate(2.5, t0=2.0, inputs={"u": lambda t: 1 + 0.5 * t}, saveat=3)
+    assert solution["x"][0] == pytest.approx(2.0, abs=1e-12)
+
+    def first(a: Any) -> Any:
+        return system.simulate(2.5, t0=2.0, inputs={"u": lambda t: a * t}, saveat=3, engine="diffrax")["x"][0]
+
+    assert jax.jit(first)(1.5) == pytest.approx(3.0, abs=1e-12)

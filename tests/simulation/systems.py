@@ -130,8 +130,9 @@ class HandSystem:
     units: Mapping[str, str] = field(default_factory=dict)
     signs: Mapping[str, tuple[int, int]] = field(default_factory=dict)
 
-    def initialize(self, t0, parameters, initial):
-        p = jnp.stack([jnp.asarray((parameters or {}).get(k, v), float) for k, v in self.defaults.items()])
+    def initialize(self, t0, parameters, initial, inputs=None):
+        given = {**(parameters or {}), **(inputs or {})}
+        p = jnp.stack([jnp.asarray(given.get(k, v), float) for k, v in self.defaults.items()])
         x0 = jnp.stack(
             [jnp.asarray((initial or {}).get(k, v), float) for k, v in zip(self.states, self.start, strict=True)]
         )

@@ -212,3 +212,42 @@ def test_explicit_rodas5p_gets_the_mass_matrix(circuit):
 def test_unknown_engine():
     with pytest.raises(SimulationError, match="engine"):
         simulate(van_der_pol(), 1.0, engine="other")
+
+
+@pytest.mark.parametrize("system", [diode(), pendulum(1.0)], ids=["algebraic unknowns", "invariants"])
+def test_forward_mode_through_wrapped_solvers(system):
+    name, seen = list(system.defaults)[-1], system.states[0]
+
+    def last(value, **options):
+        found = simulate(system, 0.3, parameters={name: value}, rtol=1e-9, saveat=3, **options)
+        return found[seen][-1]
+
+    at = float(system.defaults[name])
+    forward = jax.jacfwd(lambda v: last(v, solver=diffrax.Tsit5(), adjoint=diffrax.ForwardMode()))(at)
+    step = 1e-4 * at
+    difference = (last(at + step) - last(at - step)) / (2 * step)
+    assert forward == pytest.approx(float(difference), rel=1e-5, abs=1e-9)
+
+
+def test_many_invariants_are_projected_by_conjugate_gradients():
+    from acausal.simulation import projection
+
+    class Circles(HandLowered):
+        """Points (x_k, y_k) that belong on circles of radius 1, one invariant each."""
+
+        n_x, n_w, n_g = 160, 0, 80
+        x_nominal, w_nominal = np.ones(160), np.zeros(0)
+
+        def derivatives(self, t, x, w, p):
+            return jnp.concatenate([x[80:], -x[:80]]), jnp.zeros(0)
+
+        def invariants(self, t, x, w, p):
+            return x[:80] ** 2 + x[80:] ** 2 - 1.0
+
+    angle = jnp.linspace(0.0, 6.0, 80)
+    near = jnp.concatenate([jnp.cos(angle), jnp.sin(angle)]) * jnp.tile(1.0 + 1e-4 * jnp.sin(5 * angle), 2)
+    assert projection.DENSE_CONSTRAINTS < Circles.n_g
+    x, _ = projection.project(Circles(), 0.0, near, jnp.zeros(0), jnp.zeros(0))
+    assert jnp.max(jnp.abs(x[:80] ** 2 + x[80:] ** 2 - 1.0)) < 1e-14
+    exact = jnp.concatenate([jnp.cos(angle), jnp.sin(angle)])
+    assert jnp.max(jnp.abs(x - exact)) < 1e-12
