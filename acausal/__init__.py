@@ -27,6 +27,7 @@ from .language.component import conditional as conditional
 from .language.component import inner as inner
 from .language.component import outer as outer
 from .language.connections import connect as connect
+from .language.declarations import Discrete as Discrete
 from .language.declarations import Flow as Flow
 from .language.declarations import Input as Input
 from .language.declarations import Output as Output
@@ -34,6 +35,18 @@ from .language.declarations import Parameter as Parameter
 from .language.declarations import Potential as Potential
 from .language.declarations import Variable as Variable
 from .language.declarations import start as start
+from .language.events import assert_ as assert_
+from .language.events import change as change
+from .language.events import edge as edge
+from .language.events import initial as initial
+from .language.events import noevent as noevent
+from .language.events import pre as pre
+from .language.events import reinit as reinit
+from .language.events import sample as sample
+from .language.events import smooth as smooth
+from .language.events import terminal as terminal
+from .language.events import terminate as terminate
+from .language.events import when as when
 from .language.functions import PI as PI
 from .language.functions import abs as abs
 from .language.functions import acos as acos
@@ -66,6 +79,7 @@ from .language.modification import redeclare as redeclare
 from .symbolic.expr import Expr as Expr
 
 if TYPE_CHECKING:
+    from . import fmi as fmi
     from .analysis.calibrate import calibrate as calibrate
     from .analysis.ensemble import Ensemble as Ensemble
     from .analysis.experiments import Experiment as Experiment
@@ -75,8 +89,8 @@ if TYPE_CHECKING:
     from .analysis.priors import LogBounds as LogBounds
     from .analysis.priors import LogNormal as LogNormal
     from .analysis.priors import Normal as Normal
+    from .analysis.sampling import draw as draw
     from .analysis.sampling import grid as grid
-    from .analysis.sampling import sample as sample
     from .compiler import compile as compile
     from .simulation.jit import jit as jit
     from .simulation.rk4 import RK4 as RK4
@@ -96,7 +110,7 @@ _LAZY = {
     "LogNormal": "analysis.priors",
     "Normal": "analysis.priors",
     "grid": "analysis.sampling",
-    "sample": "analysis.sampling",
+    "draw": "analysis.sampling",
     "compile": "compiler",
     "System": "system",
     "Report": "system",
@@ -107,7 +121,12 @@ _LAZY = {
 }
 
 
+_PACKAGES = ("fmi",)
+
+
 def __getattr__(name: str) -> Any:
+    if name in _PACKAGES:
+        return importlib.import_module(f".{name}", __name__)
     if name in _LAZY:
         value = getattr(importlib.import_module(f".{_LAZY[name]}", __name__), name)
         globals()[name] = value
@@ -116,4 +135,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_LAZY})
+    return sorted({*globals(), *_LAZY, *_PACKAGES})

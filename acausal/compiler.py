@@ -13,10 +13,12 @@ from .language.component import Component
 from .language.flat_model import FlatModel
 from .language.flatten import flatten
 from .language.template import Floats
+from .lowering.hybrid import make_hybrid
 from .lowering.initial import initial_problem
 from .lowering.lowered import Lowered
 from .lowering.parameters import ParameterProgram
 from .passes.aliases import Reduced, eliminate_aliases
+from .passes.events import extract_events
 from .passes.inputs import input_equations
 from .passes.regularize import regularize
 from .passes.schedule import make_schedule
@@ -29,7 +31,7 @@ from .units import check_units
 T = TypeVar("T")
 
 
-class _Clock:
+class Clock:
     """Runs passes and notes how long each took; `progress` is told the name of each before it starts."""
 
     def __init__(self, progress: Callable[[str], None] | None) -> None:
@@ -73,11 +75,27 @@ def compile(
     if not isinstance(model, Component):
         what = f"the class `{model.__name__}`: call it" if isinstance(model, type) else f"{type(model).__name__}"
         raise DeclarationError(f"ac.compile takes an instance of a Component class, not {what}")
-    clock = _Clock(progress)
+    clock = Clock(progress)
     flat = clock("flatten", lambda: flatten(model))
     counts = {"variables": flat.n_var, "equations": _declared(flat)}
     clock("units", lambda: check_units(flat))
     flat = clock("inputs", lambda: input_equations(flat, inputs, outputs))
+    system = finish(flat, clock, counts, located=False)
+    system.outputs = tuple(outputs)
+    system.made_from = (model, tuple(inputs), tuple(outputs))
+    return system
+
+
+def finish(written: FlatModel, clock: Clock, counts: dict[str, int], *, located: bool) -> System:
+    """All passes behind flattening.
+
+    Args:
+        written: the flat model as the user wrote it.
+        clock: runs the passes.
+        counts: of variables and equations, for the report.
+        located: whether conditions in equations are modes that change at events, or what they are at every moment.
+    """
+    flat = clock("events", lambda: extract_events(written, located=located))
     program = clock("parameters", lambda: ParameterProgram(flat))
     reduced = clock("aliases", lambda: eliminate_aliases(flat))
     clock("structure check", lambda: check_structure(reduced))
@@ -85,15 +103,24 @@ def compile(
     selected = clock("states", lambda: select_states(low_index, program.default))
     schedule = clock("sort and tear", lambda: make_schedule(selected))
     lowered = clock("lower", lambda: Lowered(schedule, _nominal(flat, reduced, len(low_index.unknown)), program.n_p))
-    initial = specialize(flat.initial, *_extended(reduced, flat.n_total))
+    extended = _extended(reduced, flat.n_total)
+    initial = specialize(flat.initial, *extended)
     with_start = ~np.isnan(flat.start)
     for assignment in flat.start_assignments:
         with_start[assignment.targets] = True
     problem = initial_problem(reduced, lowered, initial, with_start)
     stages = Stages(flat, reduced, low_index, schedule, counts, clock.seconds)
-    system = System(stages, program, lowered, problem, tuple(outputs))
-    system.made_from = (model, tuple(inputs), tuple(outputs))
-    return system
+    return System(stages, program, lowered, problem, written, make_hybrid(flat, *extended))
+
+
+def located_twin(system: System) -> System:
+    """The system with its conditions as modes that change at events; itself where there is nothing to locate."""
+    written = system.written
+    if extract_events(written).slots.count == system.stages.flat.slots.count:
+        return system
+    twin = finish(written, Clock(None), system.stages.counts, located=True)
+    twin.outputs, twin.made_from = system.outputs, system.made_from
+    return twin
 
 
 def _declared(flat: FlatModel) -> int:

@@ -15,6 +15,7 @@ from .language.flat_model import FlatModel
 from .language.template import Ints
 from .listing import equation_lines
 from .lowering.bounds import check_parameters
+from .lowering.hybrid import Hybrid
 from .lowering.initial import ACCEPTED, InitialProblem, solve_initial
 from .lowering.initial_numeric import solve_numeric
 from .lowering.lowered import Lowered
@@ -53,6 +54,8 @@ class System:
         stages: the records of the compilation.
         lowered: the equations as pure JAX functions.
         outputs: names given to `compile`.
+        written: the flat model before events were taken out of it.
+        hybrid: what happens at events; None if nothing does.
         made_from: model, inputs and outputs that were compiled; a pickled system is compiled again from them.
     """
 
@@ -62,17 +65,27 @@ class System:
         program: ParameterProgram,
         lowered: Lowered,
         initial: InitialProblem,
-        outputs: tuple[str, ...],
+        written: FlatModel,
+        hybrid: Hybrid | None = None,
     ) -> None:
         self.stages = stages
         self.program = program
         self.lowered = lowered
         self.initial = initial
-        self.outputs = outputs
+        self.outputs: tuple[str, ...] = ()
+        self.written = written
+        self.hybrid = hybrid
         self.made_from: tuple[Component, tuple[str, ...], tuple[str, ...]] | None = None
         self.cache: dict[Any, Any] = {}
         lowered.attach(self.observed_ids)
         enable_double_precision()
+
+    @cached_property
+    def located(self) -> System:
+        """The same system for runs with events: conditions in equations are modes, which change where they switch."""
+        from .compiler import located_twin
+
+        return located_twin(self)
 
     # ---- names ----------------------------------------------------------------------------------------------------
     @property

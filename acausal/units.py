@@ -99,6 +99,12 @@ class _Checker:
             unit_of(declaration)
         for equation in (*self.template.equations, *self.template.initial):
             self._equal(equation.lhs, equation.rhs, equation.origin)
+        for action in self.template.actions:
+            form = action.form
+            if form.op == "reinit":
+                self._equal(form.args[0], form.args[2], action.origin, f"`reinit` gives `{form.args[0]}`")
+            else:
+                self._equal(form.args[0], form.args[0], action.origin)
         for binding in self.template.bindings:
             target = symbol(binding.path)
             what = "the start value of" if binding.is_start else "the value of"

@@ -28,7 +28,7 @@ def main(words: list[str] | None = None) -> int:
 
     system = ac.compile(reference_crane(hydraulics="extended", joint="compliant"), outputs=("x",))
     spread = {name: ac.LogNormal(value, 0.03) for name, value in TRUE.items()}
-    table = ac.sample(spread, chosen.members, method="lhs")
+    table = ac.draw(spread, chosen.members, method="lhs")
     rows_of: list[dict[str, Any]] = table.to_dict("records")
 
     def singly() -> None:

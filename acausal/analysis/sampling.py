@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 Method = Literal["random", "lhs", "sobol", "halton"]
 
 
-def sample(
+def draw(
     distributions: Mapping[str, Any], n: int, *, method: Method = "random", seed: int | None = 0
 ) -> pd.DataFrame:
     """Draw `n` sets of values.

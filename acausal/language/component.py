@@ -14,8 +14,9 @@ from .declarations import Declaration, Kind, Start, Structural
 
 if TYPE_CHECKING:
     from .connections import Connect
+    from .events import Assert, When
 
-Equations = Generator["Equation | Connect", None, None]
+Equations = Generator["Equation | Connect | When | Assert", None, None]
 """Return type of `equations` and `initial_equations`."""
 
 C = TypeVar("C", bound="Component")

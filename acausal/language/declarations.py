@@ -26,6 +26,7 @@ class Kind(enum.IntEnum):
     INPUT = 3
     OUTPUT = 4
     PARAMETER = 5
+    DISCRETE = 6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -227,6 +228,15 @@ class Output(Variable):
     """Signal that the component computes for others."""
 
     kind = Kind.OUTPUT
+
+
+class Discrete(Variable):
+    """A quantity that changes at events only: assigned by `when`, or by an equation of discrete things and conditions.
+
+    Numbers, and 0 and 1 for false and true. `start` is its value before the first event, 0 by default.
+    """
+
+    kind = Kind.DISCRETE
 
 
 class Parameter(Declaration):

@@ -18,7 +18,9 @@ from ..symbolic.traverse import leaves, substitute
 from .component import Array, Component, Connector, Shared, effective_child, merged, numbers, path_text, present, view
 from .connections import Connect
 from .declarations import STATE_SELECT, Declaration, Kind, Start
+from .events import Assert, When
 from .template import Attributes, Binding, ChildSlot, Path, Template, TemplateEquation
+from .when import assertion, statements
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -216,12 +218,18 @@ class Elaborator:
         for item, origin in _run(scope, "equations"):
             if isinstance(item, Equation):
                 template.equations.append(TemplateEquation(item.lhs, item.rhs, origin))
+            elif isinstance(item, When):
+                equations, actions = statements(item, template, origin)
+                template.equations += equations
+                template.actions += actions
+            elif isinstance(item, Assert):
+                template.actions.append(assertion(item, origin))
             else:
                 template.connections.append((item, origin))
         for item, origin in _run(scope, "initial_equations"):
             if not isinstance(item, Equation):
-                cls = type(component).__name__
-                raise DeclarationError(f"initial_equations() of `{cls}` yields a connect(), use equations() {origin}")
+                cls, what = type(component).__name__, type(item).__name__.lower()
+                raise DeclarationError(f"initial_equations() of `{cls}` yields a {what}(), use equations() {origin}")
             template.initial.append(TemplateEquation(item.lhs, item.rhs, origin))
 
     def _where(self, step: Path) -> str:
@@ -386,15 +394,18 @@ def _pick(value: Any, i: int, n: int, text: str) -> Any:
     return value
 
 
+_KINDS: dict[type, str] = {Connect: "connect", When: "when", Assert: "assert"}
+
+
 def _run(scope: Component, method: str) -> Any:
     """Items yielded by `equations` (or `initial_equations`), each with the source line that yielded it."""
     generator = getattr(scope, method)()
     cls = type(scope)
     for item in _located(generator, cls, method):
         file, line, owner = _position(generator)
-        kind = "initial" if method != "equations" else "connect" if isinstance(item, Connect) else "equation"
+        kind = "initial" if method != "equations" else _KINDS.get(type(item), "equation")
         origin = Origin(owner, file, line, kind)
-        if not isinstance(item, (Equation, Connect)):
+        if not isinstance(item, (Equation, Connect, When, Assert)):
             hint = (
                 "one side of `==` must be a variable or expression of the component"
                 if isinstance(item, bool)

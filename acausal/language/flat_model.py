@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..errors import AcausalError, UnknownNameError, nearest
 from ..symbolic.equation import Origin
-from ..symbolic.expr import Expr, par, var
+from ..symbolic.expr import Expr, make, par, var
 from ..symbolic.printing import path_text, to_text
 from .declarations import Declaration
 from .template import Ints, Path, Template
@@ -90,6 +90,28 @@ class Assignment:
 
 
 @dataclass(eq=False)
+class Slots:
+    """Values that change at events only: modes of conditions, left limits, triggers.
+
+    Attributes:
+        pieces: how each is determined: families of ``relation(slot, a, b)`` (its payload is the comparison),
+            ``floor(slot, x)``, ``pre(slot, x)``, ``triggered(slot, conditions...)``, ``sample(slot, start, interval)``.
+        kinds: operator of each slot.
+        initial, terminal: numbers of the slots that are 1 during initialization and at the end, or -1.
+    """
+
+    pieces: list[Family] = field(default_factory=list[Family])
+    kinds: list[str] = field(default_factory=list[str])
+    initial: int = -1
+    terminal: int = -1
+
+    @property
+    def count(self) -> int:
+        """Number of slots."""
+        return len(self.kinds)
+
+
+@dataclass(eq=False)
 class FlatModel:
     """A model with its hierarchy dissolved.
 
@@ -103,6 +125,8 @@ class FlatModel:
             where from.
         zero: flows of unconnected connectors.
         inputs: variables that are inputs of the whole model.
+        actions: what happens at events beside the equations: rows of ``reinit``, ``assert``, ``terminate``.
+        slots: values that change at events only; they stand behind the parameters and the inputs.
     """
 
     root: Template
@@ -131,6 +155,13 @@ class FlatModel:
     start_assignments: list[Assignment]
     inputs: Ints
     sources: list[Source] = field(default_factory=list[Source])
+    actions: list[Family] = field(default_factory=list[Family])
+    slots: Slots = field(default_factory=lambda: Slots())
+
+    @property
+    def n_p(self) -> int:
+        """Parameters, inputs and slots."""
+        return self.n_par + len(self.inputs) + self.slots.count
 
     @property
     def n_total(self) -> int:
@@ -171,7 +202,29 @@ class FlatModel:
         """Name of a parameter; an input of the whole model goes by the input's name."""
         if index < self.n_par:
             return self.names.parameter(index)
+        if index >= self.n_par + len(self.inputs):
+            return self.slot_text(index)
         return self.names.variable(int(self.inputs[index - self.n_par]))
+
+    def slot_text(self, index: int) -> str:
+        """What slot parameter `index` stands for, in the model's names."""
+        if index in (self.slots.initial, self.slots.terminal):
+            return "initial()" if index == self.slots.initial else "terminal()"
+        for family in self.slots.pieces:
+            column = family.residual.args[0].value
+            rows = np.flatnonzero(family.par_rows[:, column] == index)
+            if len(rows):
+                return self.piece_text(family, int(rows[0]))
+        return f"event {index}"
+
+    def piece_text(self, family: Family, row: int) -> str:
+        """What a row of `Slots.pieces` is about, as the user wrote it."""
+        form = family.residual
+        op, args = form.op, form.args[1:]
+        if op == "relation":
+            return self.equation_text(family, row, make(form.value, args))
+        texts = ", ".join(self.equation_text(family, row, a) for a in args)
+        return texts if op == "triggered" else f"{op}({texts})"
 
     def equation_place(self, family: Family, row: int) -> tuple[str, str]:
         """Component path and source position of an equation."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -18,7 +18,9 @@ from .connection_sets import ConnectionGraph, solve_connections
 from .declarations import Kind
 from .elaborate import Elaborator
 from .flat_model import Assignment, Family, FlatModel, Source, canonical
-from .template import Ints, Path, Template, TemplateEquation
+from .template import Ints, Path, Template, TemplateAction, TemplateEquation
+
+Role = Literal["equation", "initial", "action"]
 
 
 @dataclass(slots=True)
@@ -114,9 +116,11 @@ class Flattener:
         if template.is_connector:
             self.graph.add_connectors(template, visit.var_base, visit.path)
         for equation in template.equations:
-            self._emit_equation(visit, equation, False)
+            self._emit_equation(visit, equation, "equation")
         for equation in template.initial:
-            self._emit_equation(visit, equation, True)
+            self._emit_equation(visit, equation, "initial")
+        for action in template.actions:
+            self._emit_equation(visit, action, "action")
         for item, origin in template.connections:
             source = self._source(visit, origin, 1)
             self.graph.add(item, [self._connector(visit, path) for path in item.paths], source, origin)
@@ -140,7 +144,7 @@ class Flattener:
         reference = visit.template.resolve(path)
         return self._ids(visit, path), reference.template, reference.inside
 
-    def _emit_equation(self, visit: Visit, equation: TemplateEquation, initial: bool) -> None:
+    def _emit_equation(self, visit: Visit, equation: TemplateEquation | TemplateAction, role: Role) -> None:
         form = self._canonical(visit, equation)
         m = len(visit.var_base)
         size = int(np.prod(form.shape, dtype=np.int64))
@@ -149,7 +153,7 @@ class Flattener:
         parameters = [self._broadcast(ids, m, form.shape) for ids in found]
         source = self._source(visit, equation.origin, max(size, 1))
         orders = tuple(order for _, order in form.variables)
-        key = (form.residual, orders, initial)
+        key = (form.residual, orders, role)
         self.residuals[key] = form
         n = m * size
         self.rows.setdefault(key, []).append((_stack(columns, n), _stack(parameters, n), source, n))
@@ -160,11 +164,12 @@ class Flattener:
             ids = ids.reshape((m, *([1] * len(shape))))
         return np.broadcast_to(ids, (m, *shape)).ravel()
 
-    def _canonical(self, visit: Visit, equation: TemplateEquation) -> Canonical:
+    def _canonical(self, visit: Visit, equation: TemplateEquation | TemplateAction) -> Canonical:
         cache = visit.template.cache
         key = id(equation)
         if key not in cache:
-            cache[key] = canonical_form(visit.template, equation, equation.lhs - equation.rhs)
+            form = equation.form if isinstance(equation, TemplateAction) else equation.lhs - equation.rhs
+            cache[key] = canonical_form(visit.template, equation, form)
         return cache[key]
 
     def _emit_binding(self, visit: Visit, binding: Any) -> None:
@@ -198,7 +203,9 @@ def _stack(columns: list[Ints], n: int) -> Ints:
     return np.stack(columns, axis=1) if columns else np.zeros((n, 0), np.int64)
 
 
-def canonical_form(template: Template, equation: TemplateEquation, residual: Expr) -> Canonical:
+def canonical_form(
+    template: Template, equation: TemplateEquation | TemplateAction, residual: Expr
+) -> Canonical:
     """Symbols become slots, `der` is carried down to variables."""
 
     def is_parameter(leaf: Expr) -> bool:
@@ -213,7 +220,7 @@ def canonical_form(template: Template, equation: TemplateEquation, residual: Exp
     shape: tuple[int, ...] = ()
     mapping: dict[Expr, Expr] = {}
     for leaf in leaves(residual):
-        if leaf.op == "time":
+        if leaf.op in ("time", "initial", "terminal"):
             continue
         if leaf.op == "declared":
             raise DeclarationError(
@@ -280,13 +287,14 @@ def flatten(model: Component) -> FlatModel:
     walker = Flattener()
     walker.visit_all(template)
     joined = solve_connections(walker.graph, template, walker.sources)
-    families, initial, derivative_of, parent = _families(walker, template.var_count, joined.sums)
+    families, others, derivative_of, parent = _families(walker, template.var_count, joined.sums)
     n_total = len(derivative_of)
     inputs = np.array([o for n, (p, o) in template.own.items() if not p and _is_input(template, n)], np.int64)
     pad = n_total - template.var_count
     return FlatModel(
         root=template, model_name=type(model).__name__, n_var=template.var_count, n_par=template.par_count,
-        derivative_of=derivative_of, parent=parent, families=families, initial=initial,
+        derivative_of=derivative_of, parent=parent, families=families,
+        initial=others["initial"], actions=others["action"],
         alias_a=joined.a, alias_b=joined.b, alias_sign=joined.sign,
         alias_source=joined.source, alias_ordinal=joined.ordinal,
         zero=joined.zero, zero_source=joined.zero_source, zero_ordinal=joined.zero_ordinal,
@@ -306,8 +314,8 @@ def _is_input(template: Template, name: str) -> bool:
 
 def _families(
     walker: Flattener, n_var: int, sums: list[Family]
-) -> tuple[list[Family], list[Family], Ints, Ints]:
-    """Number the derivatives, turn the collected rows into families."""
+) -> tuple[list[Family], dict[Role, list[Family]], Ints, Ints]:
+    """Number the derivatives, turn the collected rows into families; those that are no equations by their role."""
     derivative_of = np.full(n_var, -1, np.int64)
     parent = np.full(n_var, -1, np.int64)
     highest = max((max(orders, default=0) for _, orders, _ in walker.rows), default=0)
@@ -330,13 +338,13 @@ def _families(
         table[base] = new
         at_order.append(table)
     families: list[Family] = []
-    initial: list[Family] = []
-    for (residual, orders, is_initial), parts in walker.rows.items():
+    others: dict[Role, list[Family]] = {"initial": [], "action": []}
+    for (residual, orders, role), parts in walker.rows.items():
         rows = np.concatenate([p[0] for p in parts])
         if any(orders):
             rows = np.stack([at_order[o][rows[:, k]] for k, o in enumerate(orders)], axis=1)
         source = np.concatenate([np.full(p[3], p[2]) for p in parts])
         ordinal = np.concatenate([np.arange(p[3]) for p in parts])
         form, rows, parameters = canonical(residual, rows, np.concatenate([p[1] for p in parts]))
-        (initial if is_initial else families).append(Family(form, rows, parameters, source, ordinal))
-    return [*families, *sums], initial, derivative_of, parent
+        others.get(role, families).append(Family(form, rows, parameters, source, ordinal))
+    return [*families, *sums], others, derivative_of, parent

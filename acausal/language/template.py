@@ -35,6 +35,14 @@ class TemplateEquation:
 
 
 @dataclass(frozen=True, slots=True)
+class TemplateAction:
+    """What a class does at events beside its equations: an expression ``reinit``, ``assert`` or ``terminate``."""
+
+    form: Expr
+    origin: Origin
+
+
+@dataclass(frozen=True, slots=True)
 class Binding:
     """`path` gets the value of an expression of parameters: a parameter's value, or a variable's start value."""
 
@@ -110,6 +118,7 @@ class Template:
         self.par_count = 0
         self.equations: list[TemplateEquation] = []
         self.initial: list[TemplateEquation] = []
+        self.actions: list[TemplateAction] = []
         self.connections: list[tuple[Connect, Origin]] = []
         self.bindings: list[Binding] = []
         self.cache: dict[Any, Any] = {}

@@ -224,6 +224,28 @@ def gauss_newton(system: Function, y: Floats, scale: Floats) -> tuple[Floats, Fl
     return found, part.left(found)
 
 
+def gauss_newton_part(
+    system: Function, z: Floats, nominal: Floats, ease: Floats, columns: Ints
+) -> tuple[Floats, Floats]:
+    """Root of `system` near z that differs in some of the variables only, and the relative residuals.
+
+    Args:
+        system: z to (residuals (m,), Jacobian (m, n)).
+        z: first guess (n,).
+        nominal: typical magnitude of the variables (n,).
+        ease: scale in which a variable is moved (n,).
+        columns: the variables that may move.
+    """
+    part = _Part(system, nominal, ease, columns, slice(None))
+    found = root_near(part, z)
+    left = part.left(found)
+    if np.max(left, initial=0.0) > 1e-9 or not np.isfinite(left).all():
+        other = _homotopy(part, z)
+        if np.max(part.left(other), initial=0.0) < np.max(np.nan_to_num(left, nan=np.inf), initial=0.0):
+            return other, part.left(other)
+    return found, left
+
+
 def _norm(r: Floats, size: Floats) -> float:
     """Residual relative to the slopes at the last point."""
     return float(np.linalg.norm(r / size)) if np.isfinite(r).all() else np.inf

@@ -18,15 +18,15 @@ class ParameterProgram:
     """From the given values to the vector of all parameters.
 
     Attributes:
-        default: all parameter values with nothing given, dependent ones evaluated, inputs at the end.
+        default: all parameter values with nothing given, dependent ones evaluated; inputs and slots of events behind.
         dependent: mask of the parameters that an expression gives.
     """
 
     def __init__(self, flat: FlatModel) -> None:
         self.flat = flat
-        self.n_p = flat.n_par + len(flat.inputs)
+        self.n_p = flat.n_p
         inputs = np.nan_to_num(flat.start[flat.inputs])
-        self.base: Floats = np.concatenate([flat.par_value, inputs])
+        self.base: Floats = np.concatenate([flat.par_value, inputs, np.zeros(flat.slots.count)])
         self.dependent = np.zeros(self.n_p, bool)
         for a in flat.par_assignments:
             self.dependent[a.targets] = True
@@ -73,6 +73,8 @@ class ParameterProgram:
         noise = random.uniform(0.02, 0.2, self.n_p)
         values = np.where(np.isnan(self.base), 1.0 + noise, self.base * (1.0 + noise))
         values = np.where(values == 0.0, noise, values)
+        held = self.n_p - self.flat.slots.count
+        values[held:] = self.base[held:]
         for assignment in self.ordered:
             values[assignment.targets] = evaluate_assignment(assignment, values, np)
         return values

@@ -13,7 +13,8 @@ from ..errors import StructureError
 from ..language.flat_model import Bools, Family, FlatModel, canonical
 from ..language.template import Ints
 from ..symbolic.differentiate import differentiate
-from ..symbolic.expr import ONE, ZERO, Expr, var
+from ..symbolic.expr import ONE, ZERO, Expr, par, var
+from ..symbolic.traverse import substitute
 from .aliases import Reduced
 from .diagnose import singular
 
@@ -209,8 +210,10 @@ def differentiate_family(family: Family, derivative_of: Ints, flat: FlatModel) -
     """Total time derivative of a family; variables that are constant have no derivative."""
     k = family.var_rows.shape[1]
     derivatives = derivative_of[family.var_rows]
-    if (family.par_rows >= flat.n_par).any():
-        i = int(np.flatnonzero((family.par_rows >= flat.n_par).any(axis=1))[0])
+    held = flat.n_par + len(flat.inputs)
+    fed = (family.par_rows >= flat.n_par) & (family.par_rows < held)
+    if fed.any():
+        i = int(np.flatnonzero(fed.any(axis=1))[0])
         component, place = flat.equation_place(family, i)
         raise StructureError(
             f"the index reduction must differentiate `{flat.equation_text(family, i)}` "
@@ -221,7 +224,18 @@ def differentiate_family(family: Family, derivative_of: Ints, flat: FlatModel) -
     def tangent(leaf: Expr) -> Expr:
         return var(k + leaf.value) if leaf.op == "var" else ONE if leaf.op == "time" else ZERO
 
-    residual = differentiate((family.residual,), tangent)[0]
+    residual = differentiate((_between_events(family, flat),), tangent)[0]
     both = np.concatenate([family.var_rows, derivatives], axis=1)
     form, var_rows, par_rows = canonical(residual, both, family.par_rows)
     return Family(form, var_rows, par_rows, family.source, family.ordinal)
+
+
+def _between_events(family: Family, flat: FlatModel) -> Expr:
+    """The residual with discrete variables as they are between events: nothing is triggered there."""
+    first = flat.n_par + len(flat.inputs)
+    idle: dict[Expr, Expr] = {}
+    for k in range(family.par_rows.shape[1]):
+        slots = family.par_rows[:, k] - first
+        if slots.size and (slots >= 0).all() and all(flat.slots.kinds[i] == "triggered" for i in slots.tolist()):
+            idle[par(k)] = ZERO
+    return substitute(family.residual, idle) if idle else family.residual

@@ -13,6 +13,7 @@ from acausal.errors import SimulationError, UnknownNameError, nearest
 from acausal.lowering.c.text import NotInC
 from acausal.lowering.numeric import is_concrete
 
+from .hybrid_run import HybridRun
 from .native import Given, NativeModel, Tolerances, native_model
 from .native_build import NoCompiler, compiler
 from .native_library import METHODS, RESULTS, Floats, Run, Signal
@@ -39,6 +40,7 @@ def simulate(system: Any, t1: Any, *, engine: str = "auto", **options: Any) -> S
     """
     if engine not in ENGINES:
         raise SimulationError(f"There is no engine {engine!r}; there are {', '.join(map(repr, ENGINES))}.")
+    system = system_to_run(system, options, engine)
     if engine != "diffrax":
         reason = why_not_native(system, options)
         if reason is None:
@@ -48,6 +50,32 @@ def simulate(system: Any, t1: Any, *, engine: str = "auto", **options: Any) -> S
     from .simulate import simulate as with_diffrax
 
     return with_diffrax(system, t1, engine="diffrax", **options)
+
+
+def system_to_run(system: Any, options: Mapping[str, Any], engine: str) -> Any:
+    """The system with its events located, or as it is where they are switched off.
+
+    Raises:
+        SimulationError: events cannot be switched off in a model with `when`.
+    """
+    if options.get("events", True) is False:
+        if system.hybrid is not None:
+            raise SimulationError(
+                f"The model `{system.name}` has `when` statements or discrete variables: it does not run with "
+                "events=False."
+            )
+        return system
+    located = system.located
+    if located.hybrid is None:
+        return system
+    reason = "engine='diffrax'" if engine == "diffrax" else why_not_native(located, options)
+    if reason is None and not is_concrete([v for v in options.values() if not isinstance(v, str)]):
+        reason = "derivatives"
+    if reason is None:
+        return located
+    if system.hybrid is not None:
+        raise SimulationError(f"Events need the native engine, and it cannot run this: {reason}.")
+    return system
 
 
 def why_not_native(system: Any, options: Mapping[str, Any]) -> str | None:
@@ -132,6 +160,10 @@ def _native(
     return finish(model, save, started.p, run, given.signals, seconds, t1, max_steps, method=solver, throw=throw)
 
 
+def _ended(run: HybridRun) -> str:
+    return "successful" if run.ended is None else f"terminated: {run.ended}"
+
+
 def output_times(saveat: Any, t0: float, t1: float) -> Floats:
     """Output times of a concrete run."""
     if saveat is None or isinstance(saveat, int):
@@ -201,8 +233,8 @@ def _signal(name: str, value: Any) -> tuple[Any, Any]:
 
 
 def finish(
-    model: NativeModel, save: Floats, p: Floats, run: Run, signals: Sequence[Signal], seconds: tuple[float, float],
-    t1: float, max_steps: int, *, method: str, throw: bool,
+    model: NativeModel, save: Floats, p: Floats, run: Run | HybridRun, signals: Sequence[Signal],
+    seconds: tuple[float, float], t1: float, max_steps: int, *, method: str, throw: bool,
 ) -> Solution:  # fmt: skip
     """The solution of a concrete run; raises where it failed."""
     from .solution import Solution
@@ -215,14 +247,18 @@ def finish(
         stats |= {"rhs": 8 * counts["steps"], "jacobians": counts["accepted"]}
     stats |= {"solver": _NAMES[method], "engine": "native"}
     stats |= {"compile_seconds": seconds[0], "run_seconds": seconds[1], "t_end": run.t_end}
-    z, t = run.z[: run.saved], save[: run.saved]
+    if isinstance(run, HybridRun):
+        z, t, slots, events = run.z, run.save, run.slots, tuple(run.events)
+        result = RESULTS[run.code] if run.code else _ended(run)
+    else:
+        z, t, slots, events = run.z[: run.saved], save[: run.saved], None, ()
+        result = RESULTS[run.code]
 
     def observe(t: Any, z: Any) -> Any:
-        return model.observe(t, z, p, signals)
+        return model.observe(t, z, p, signals, slots)
 
-    solution = Solution(
-        system, t, z[:, : low.n_x], z[:, low.n_x :], p, stats=stats, result=RESULTS[run.code], observe=observe
-    )
+    x, w = z[:, : low.n_x], z[:, low.n_x :]
+    solution = Solution(system, t, x, w, p, stats=stats, result=result, events=events, observe=observe)
     if throw and run.code:
         from .failure import explain
 

@@ -21,6 +21,8 @@ from acausal.lowering.initial_numeric import conditions_of, least_change, solve_
 from acausal.lowering.numeric import NumericRun
 from acausal.symbolic.traverse import postorder
 
+from .event_iteration import EventIteration, Outcome
+from .hybrid_run import HybridRun, run_hybrid, warn
 from .native_build import build
 from .native_library import METHODS, Floats, NativeLibrary, Run, Signal
 
@@ -57,12 +59,41 @@ class Tolerances:
 
 @dataclass(slots=True, eq=False)
 class Started:
-    """A consistent start: z0, parameters, start values of all variables, residuals left."""
+    """A consistent start: z0, parameters, residuals left, mask of the parameters given; with events their iteration."""
 
     z0: Floats
     p: Floats
     left: Floats
     mask: Any
+    iteration: EventIteration | None = None
+    outcome: Outcome | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NativeEquations:
+    """The compiled equations for the iteration of events."""
+
+    model: NativeModel
+    library: NativeLibrary
+    signals: Sequence[Signal]
+
+    def feed(self, t: float, p: Floats) -> None:
+        """Inputs at time t into p."""
+        first = self.model.system.program.flat.n_par
+        for k, (times, values) in enumerate(self.signals):
+            p[first + k] = np.interp(t, times, values)
+
+    def settle(self, t: float, z: Floats, p: Floats) -> Floats | None:
+        """z with the algebraic unknowns solved for."""
+        low = self.model.system.lowered
+        if not low.n_w:
+            return z
+        z = z.copy()
+        return z if self.library.settle(p, self.signals, t, z) else None
+
+    def values(self, t: float, z: Floats, p: Floats) -> Floats:
+        """All reduced variables."""
+        return self.library.observe(p, self.signals, np.array([t]), z[None])[0]
 
 
 @dataclass(eq=False)
@@ -111,16 +142,26 @@ class NativeModel:
             library.starts(p, starts)
         overrides = system._overrides(given.initial, np)
         own = not self.large and _own_conditions(problem, overrides)
-        conditions = (lambda z: library.conditions(p, t0, z)) if own else None
-        found = solve_numeric(problem, t0, p, starts, overrides, conditions)
-        if found is None:
-            raise InitializationError("the start of this model is too large for the native engine")
-        x0, w0, left = found
+
+        def solve(p: Floats) -> tuple[Floats, Floats]:
+            conditions = (lambda z: library.conditions(p, t0, z)) if own else None
+            found = solve_numeric(problem, t0, p, starts, overrides, conditions)
+            if found is None:
+                raise InitializationError("the start of this model is too large for the native engine")
+            return np.concatenate(found[:2]), found[2]
+
+        iteration = outcome = None
+        if system.hybrid is None:
+            z0, left = solve(p)
+        else:
+            iteration = EventIteration(system.hybrid, problem, NativeEquations(self, library, given.signals), warn)
+            outcome, left = iteration.start(t0, p, starts, solve)
+            z0, p = outcome.z, outcome.p
         if check:
-            system.check_initial(x0, w0, p, left, t0)
+            system.check_initial(z0[: problem.lowered.n_x], z0[problem.lowered.n_x :], p, left, t0)
         else:
             check_parameters(program.flat, p)
-        return Started(np.concatenate([x0, w0]), p, left, mask)
+        return Started(z0, p, left, mask, iteration, outcome)
 
     @property
     def large(self) -> bool:
@@ -137,15 +178,37 @@ class NativeModel:
     # ---- run --------------------------------------------------------------------------------------
     def run(
         self, t0: float, t1: float, save: Floats, given: Given, how: Tolerances, check: bool = True
-    ) -> tuple[Started, Run]:
+    ) -> tuple[Started, Run | HybridRun]:
         """Start and integrate."""
         library = self.library()
         started = self.start(t0, given, library, check)
+        if started.iteration is not None:
+            return started, self._run_events(library, started, t0, t1, save, given, how)
         run = library.run(
             t0, t1, started.z0, started.p, save, rtol=how.rtol, atol=how.atol, signals=given.signals,
             first_step=how.first_step, max_steps=how.max_steps, method=METHODS.index(how.method),
         )  # fmt: skip
         return started, run
+
+    def _run_events(
+        self, library: NativeLibrary, started: Started, t0: float, t1: float, save: Floats, given: Given,
+        how: Tolerances,
+    ) -> HybridRun:  # fmt: skip
+        """Integrate from event to event."""
+
+        def integrate(
+            t: float, stop: float, z: Floats, p: Floats, save: Floats, step: float, end_open: bool, steps: int
+        ) -> Run:
+            return library.run(
+                t, stop, z, p, save, rtol=how.rtol, atol=how.atol, signals=given.signals, first_step=step,
+                max_steps=steps, method=METHODS.index(how.method), located=True, end_open=end_open,
+            )  # fmt: skip
+
+        assert started.iteration is not None and started.outcome is not None
+        return run_hybrid(
+            started.iteration, started.outcome, t0, t1, save, integrate, first_step=how.first_step,
+            max_steps=how.max_steps,
+        )  # fmt: skip
 
     def sensitivities(
         self, t0: float, t1: float, save: Floats, given: Given, how: Tolerances, seeds: Sequence[Seed],
@@ -256,10 +319,21 @@ class NativeModel:
         return found[0](started.z0)[1], rate
 
     # ---- what follows from the states -------------------------------------------------------------
-    def observe(self, t: Floats, z: Floats, p: Floats, signals: Sequence[Signal]) -> Floats:
-        """All variables of the flat model, (n_t, n_all)."""
-        values = self.library().observe(p, signals, t, z)
+    def observe(
+        self, t: Floats, z: Floats, p: Floats, signals: Sequence[Signal], slots: Floats | None = None
+    ) -> Floats:
+        """All variables of the flat model, (n_t, n_all); `slots` (n_t, n_slots) are those of a run with events."""
         low = self.system.lowered
+        if slots is None:
+            values = self.library().observe(p, signals, t, z)
+        else:
+            values = np.empty((len(t), low.n_ids))
+            cuts = np.flatnonzero((slots[1:] != slots[:-1]).any(axis=1)) + 1
+            for a, b in zip([0, *cuts.tolist()], [*cuts.tolist(), len(t)], strict=True):
+                if b > a:
+                    at = p.copy()
+                    at[self.system.hybrid.slots] = slots[a]
+                    values[a:b] = self.library().observe(at, signals, t[a:b], z[a:b])
         return np.where(low.sign == 0, 0.0, low.sign * np.nan_to_num(values[:, low.representative], nan=np.nan))
 
 
@@ -307,6 +381,7 @@ def native_model(system: Any) -> NativeModel:
         def label(v: int) -> str:
             return flat.name(v) if v < flat.n_total else ""
 
-        source = to_c(system.program, system.initial, label, loops=loops)
+        roots = None if system.hybrid is None else system.hybrid.roots
+        source = to_c(system.program, system.initial, label, roots=roots, loops=loops)
         system.cache["native"] = NativeModel(system, source)
     return system.cache["native"]

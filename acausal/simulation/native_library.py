@@ -19,7 +19,9 @@ _P = POINTER(c_double)
 Signal = tuple[Floats, Floats]
 """An input over time: times (n,) and values (n,); one point is a constant."""
 
-RESULTS = ("successful", "max_steps_reached", "dt_min_reached", "singular", "out_of_memory", "stopped")
+RESULTS = (
+    "successful", "max_steps_reached", "dt_min_reached", "singular", "out_of_memory", "stopped", "event_occurred",
+)  # fmt: skip
 """Names of the results of a run, by code; as diffrax calls them where it has them."""
 
 
@@ -39,7 +41,8 @@ class _Problem(ctypes.Structure):
         ("index", c_void_p), ("nominal", _P),
         ("n_save", c_long), ("save", _P), ("n_directions", c_int), ("dz0", _P), ("dp", _P), ("z_out", _P),
         ("dz_out", _P), ("z_end", _P), ("dz_end", _P), ("t_end", c_double), ("steps", c_long), ("accepted", c_long),
-        ("rejected", c_long), ("pivoted", c_long), ("saved", c_long), ("stop", c_void_p),
+        ("rejected", c_long), ("pivoted", c_long), ("saved", c_long), ("stop", c_void_p), ("located", c_int),
+        ("open", c_int), ("step", c_double), ("switched", POINTER(c_int)),
     )  # fmt: skip
 
 
@@ -51,13 +54,20 @@ class Run:
         dz: (n_saved, n_z, lanes), or None.
         code: 0, or the position in `RESULTS` of what ended it.
         t_end, z_end: the last accepted point.
+        dz_end: tangents there (n, lanes), or None.
+        step: to go on with from there.
+        switched: mask of the roots that have changed their sign at an event.
         counts: steps, accepted, rejected, pivoted.
     """
 
-    __slots__ = ("code", "counts", "dz", "saved", "t_end", "z", "z_end")
+    __slots__ = ("code", "counts", "dz", "dz_end", "saved", "step", "switched", "t_end", "z", "z_end")
 
-    def __init__(self, z: Floats, dz: Floats | None, code: int, problem: _Problem, z_end: Floats) -> None:
-        self.z, self.dz, self.code, self.z_end = z, dz, code, z_end
+    def __init__(
+        self, z: Floats, dz: Floats | None, code: int, problem: _Problem, z_end: Floats, dz_end: Floats | None = None,
+        switched: Any = None,
+    ) -> None:  # fmt: skip
+        self.z, self.dz, self.code, self.z_end, self.dz_end, self.switched = z, dz, code, z_end, dz_end, switched
+        self.step = float(problem.step)
         self.t_end = float(problem.t_end)
         self.saved = int(problem.saved)
         self.counts = {name: int(getattr(problem, name)) for name in ("steps", "accepted", "rejected", "pivoted")}
@@ -80,12 +90,13 @@ class NativeLibrary:
         self.library = ctypes.CDLL(str(path))
         lib = self.library
         lib.acausal_size.restype = c_long
-        sizes = [int(lib.acausal_size(k)) for k in range(8)]
-        self.n, self.n_x, self.n_p, self.n_i, n_iz, self.n_all, self.lanes, size = sizes
+        sizes = [int(lib.acausal_size(k)) for k in range(9)]
+        self.n, self.n_x, self.n_p, self.n_i, n_iz, self.n_all, self.lanes, size, self.n_roots = sizes
         if size != ctypes.sizeof(_Problem):
             raise AcausalError("the compiled model and this version of acausal do not fit; empty the cache folder")
         self.tangents = tangents
         lib.acausal_run.argtypes = (POINTER(_Problem),)
+        lib.acausal_settle.argtypes = (_P, POINTER(_Signal), c_void_p, _P, c_double, _P)
         lib.acausal_observe.argtypes = (_P, POINTER(_Signal), c_void_p, c_long, _P, _P, _P)
         if not self.tables:
             self._bind_start(n_iz)
@@ -144,7 +155,7 @@ class NativeLibrary:
     def run(
         self, t0: float, t1: float, z0: Floats, p: Floats, save: Floats, *, rtol: float, atol: Floats,
         signals: Sequence[Signal] = (), first_step: float = 0.0, max_steps: int = 1_000_000, method: int = 0,
-        tangents: tuple[Floats, Floats] | None = None,
+        tangents: tuple[Floats, Floats] | None = None, located: bool = False, end_open: bool = False,
     ) -> Run:  # fmt: skip
         """Integrate from t0 to t1.
 
@@ -160,6 +171,8 @@ class NativeLibrary:
             max_steps: most steps, rejected ones included.
             method: position in `METHODS`.
             tangents: of z0 (n, lanes) and p (n_p, lanes).
+            located: end at the first event.
+            end_open: save nothing at t1.
         """
         n_t = len(save)
         z, z_end = np.full((n_t, self.n), np.nan), np.empty(self.n)
@@ -167,8 +180,10 @@ class NativeLibrary:
         problem = _Problem(
             t0=t0, t1=t1, rtol=rtol, first_step=first_step, atol=_of(keep[3]), method=method, max_steps=max_steps,
             smallest=1e-14 * max(abs(t0), abs(t1), abs(t1 - t0)), z0=_of(keep[0]), p=_of(keep[1]), n_save=n_t,
-            save=_of(keep[2]), z_out=_of(z), z_end=_of(z_end), t_end=t0,
+            save=_of(keep[2]), z_out=_of(z), z_end=_of(z_end), t_end=t0, located=located, open=end_open,
         )  # fmt: skip
+        switched = np.zeros(max(self.n_roots, 1), np.int32)
+        problem.switched = switched.ctypes.data_as(POINTER(c_int))
         held = _signals(signals)
         problem.signals = held[0]
         problem.index = ctypes.addressof(self.index)
@@ -181,7 +196,13 @@ class NativeLibrary:
             problem.n_directions = self.lanes
             problem.dz0, problem.dp, problem.dz_out, problem.dz_end = _of(dz0), _of(dp), _of(dz), _of(dz_end)
         code = int(self.library.acausal_run(byref(problem)))
-        return Run(z, dz, code, problem, z_end)
+        return Run(z, dz, code, problem, z_end, dz_end, switched[: self.n_roots].astype(bool))
+
+    def settle(self, p: Floats, signals: Sequence[Signal], t: float, z: Floats) -> bool:
+        """The algebraic unknowns in z (n,) from its states, in place; False if that fails."""
+        held = _signals(signals)
+        nominal = None if self.nominal is None else _of(self.nominal)
+        return not self.library.acausal_settle(_of(p), held[0], self.index, nominal, t, _of(z))
 
     def observe(self, p: Floats, signals: Sequence[Signal], t: Floats, z: Floats) -> Floats:
         """Every variable of the reduced model at times t (n_t,): (n_t, n_all); NaN where it is not computed."""

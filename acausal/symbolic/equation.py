@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NoReturn
+from typing import Any, NoReturn
 
-from .expr import Expr
+from .expr import Expr, as_expr, make
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +42,25 @@ class Equation:
             f"`{self}` is an equation, which is neither true nor false: yield it from equations(), or use a "
             "comparison (<, <=, >, >=) inside where(...) for a condition"
         )
+
+    def __acausal_expr__(self) -> Expr:
+        """As a condition: whether two discrete quantities are equal."""
+        return make("eq", (self.lhs, self.rhs))
+
+    def __and__(self, other: Any) -> Expr:
+        return as_expr(self) & as_expr(other)
+
+    def __rand__(self, other: Any) -> Expr:
+        return as_expr(other) & as_expr(self)
+
+    def __or__(self, other: Any) -> Expr:
+        return as_expr(self) | as_expr(other)
+
+    def __ror__(self, other: Any) -> Expr:
+        return as_expr(other) | as_expr(self)
+
+    def __invert__(self) -> Expr:
+        return ~as_expr(self)
 
     def __str__(self) -> str:
         return f"{self.lhs} = {self.rhs}"

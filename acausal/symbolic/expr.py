@@ -90,10 +90,10 @@ class Expr:
     def __ge__(self, other: Operand) -> Expr:
         return make("ge", (self, as_expr(other)))
 
-    def __and__(self, other: Expr | bool) -> Expr:
+    def __and__(self, other: Operand) -> Expr:
         return make("and", (self, as_expr(other)))
 
-    def __or__(self, other: Expr | bool) -> Expr:
+    def __or__(self, other: Operand) -> Expr:
         return make("or", (self, as_expr(other)))
 
     def __invert__(self) -> Expr:
@@ -250,10 +250,18 @@ def is_const(node: Expr, value: float | None = None) -> bool:
     return node.op == "const" and (value is None or node.value == value)
 
 
+CONDITIONS: Final = frozenset({"lt", "le", "gt", "ge", "eq", "and", "or", "not"})
+
+
+def numeric(node: Expr) -> Expr:
+    """A condition as the number 0 or 1; any other expression as it is."""
+    return make("where", (node, ONE, ZERO)) if node.op in CONDITIONS else node
+
+
 def add(*terms: Expr) -> Expr:
     """Sum, flat, with constants folded and ``x - x`` cancelled."""
     flat: list[Expr] = []
-    for term in terms:
+    for term in map(numeric, terms):
         flat.extend(term.args if term.op == "add" else (term,))
     constant = 0.0
     kept: list[Expr] = []
@@ -298,6 +306,7 @@ def _cancel(terms: list[Expr]) -> list[Expr]:
 
 def neg(x: Expr) -> Expr:
     """``-x``."""
+    x = numeric(x)
     if x.op == "const":
         return const(-x.value)
     if x.op == "neg":
@@ -309,6 +318,7 @@ def neg(x: Expr) -> Expr:
 
 def mul(a: Expr, b: Expr) -> Expr:
     """``a * b``; constants and signs move to the front."""
+    a, b = numeric(a), numeric(b)
     if a.op == "const" and b.op == "const":
         return const(a.value * b.value)
     if b.op == "const":
@@ -331,6 +341,7 @@ def mul(a: Expr, b: Expr) -> Expr:
 
 def div(a: Expr, b: Expr) -> Expr:
     """``a / b``."""
+    a, b = numeric(a), numeric(b)
     if b.op == "const":
         if b.value == 0.0:
             raise ZeroDivisionError(f"division of `{a}` by the constant 0")
@@ -355,6 +366,7 @@ def intern_or_sign(a: Expr, b: Expr) -> Expr:
 
 def power(a: Expr, b: Expr) -> Expr:
     """``a ** b``."""
+    a, b = numeric(a), numeric(b)
     if b.op == "const":
         if b.value == 0.0:
             return ONE

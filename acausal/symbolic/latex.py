@@ -11,8 +11,8 @@ from .operators import OPERATORS
 from .printing import leaf_text, number_text
 from .traverse import postorder
 
-_PREC = {"lt": 0, "le": 0, "gt": 0, "ge": 0, "and": -2, "or": -3}
-_INFIX = ("lt", "le", "gt", "ge", "and", "or")
+_PREC = {"lt": 0, "le": 0, "gt": 0, "ge": 0, "eq": 0, "and": -2, "or": -3}
+_INFIX = ("lt", "le", "gt", "ge", "eq", "and", "or")
 _ATOM = 9
 
 _GREEK = {

@@ -107,9 +107,15 @@ _ROWS: Final = [
     Operator("le", "less_equal", lambda a, b: a <= b, (None, None), None, "condition", r"\le"),
     Operator("gt", "greater", lambda a, b: a > b, (None, None), None, "condition", ">"),
     Operator("ge", "greater_equal", lambda a, b: a >= b, (None, None), None, "condition", r"\ge"),
+    Operator("eq", "equal", lambda a, b: a == b, (None, None), None, "condition", "="),
     Operator("and", "logical_and", lambda a, b: bool(a) and bool(b), (None, None), None, "logical", r"\land"),
     Operator("or", "logical_or", lambda a, b: bool(a) or bool(b), (None, None), None, "logical", r"\lor"),
     Operator("not", "logical_not", lambda a: not a, (None,), None, "logical", r"\lnot"),
+    # What follows is for hybrid models and is gone before anything is evaluated: see `acausal.passes.events`.
+    Operator("pre", "", None, (None,), None, "same", r"\operatorname{pre}"),
+    Operator("noevent", "", None, (None,), None, "same", r"\operatorname{noEvent}"),
+    Operator("triggered", "", None, (None,), None, "logical", r"\operatorname{edge}"),
+    Operator("sample", "", None, (None, None), None, "condition", r"\operatorname{sample}"),
 ]  # fmt: skip
 
 OPERATORS: Final[dict[str, Operator]] = {row.name: row for row in _ROWS}

@@ -15,8 +15,8 @@ from .traverse import postorder
 
 _NAMES = {
     "abs": "Abs", "min": "Min", "max": "Max", "ceil": "ceiling", "and": "And", "or": "Or", "not": "Not", "lt": "Lt",
-    "le": "Le", "gt": "Gt", "ge": "Ge", "mod": "Mod", "div": None, "mul": None, "pow": None, "neg": None, "where": None,
-    "clip": None, "log10": None,
+    "le": "Le", "eq": "Eq", "gt": "Gt", "ge": "Ge", "mod": "Mod", "div": None, "mul": None, "pow": None, "neg": None,
+    "where": None, "clip": None, "log10": None,
 }  # fmt: skip
 """SymPy functions whose name differs from the operator's, and operators that have their own rule."""
 

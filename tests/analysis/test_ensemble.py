@@ -158,7 +158,7 @@ def test_a_lost_task_is_a_failure_of_its_members(tank, monkeypatch):
 # ---- samplers -------------------------------------------------------------------------------------------------------
 def test_samples_have_their_distributions():
     n = 4096
-    table = ac.sample(
+    table = ac.draw(
         {"u": (2.0, 4.0), "l": ac.LogBounds(1e-3, 1e3), "n": ac.Normal(5.0, 0.5), "g": ac.LogNormal(2.0, 0.1),
          "w": stats.weibull_min(2.0)}, n, method="sobol",
     )  # fmt: skip
@@ -172,13 +172,13 @@ def test_samples_have_their_distributions():
 
 @pytest.mark.parametrize("method", ["random", "lhs", "sobol", "halton"])
 def test_samples_are_the_same_for_the_same_seed(method):
-    one, same, other = (ac.sample({"a": (0, 1), "b": (0, 1)}, 10, method=method, seed=s) for s in (1, 1, 2))
+    one, same, other = (ac.draw({"a": (0, 1), "b": (0, 1)}, 10, method=method, seed=s) for s in (1, 1, 2))
     assert one.equals(same) and not one.equals(other)
     assert one.shape == (10, 2) and ((one > 0) & (one < 1)).all(axis=None)
 
 
 def test_latin_hypercube_has_one_sample_in_each_stratum():
-    table = ac.sample({"a": (0, 1)}, 50, method="lhs")
+    table = ac.draw({"a": (0, 1)}, 50, method="lhs")
     assert np.array_equal(np.sort((table["a"] * 50).astype(int)), np.arange(50))
 
 
@@ -189,11 +189,11 @@ def test_grid_has_every_combination():
 
 def test_wrong_samples_are_named():
     with pytest.raises(ac.CalibrationError, match="`a`: Bounds\\(2, 1\\) is empty"):
-        ac.sample({"a": (2, 1)}, 3)
+        ac.draw({"a": (2, 1)}, 3)
     with pytest.raises(ac.CalibrationError, match="no method 'mc'"):
-        ac.sample({"a": (0, 1)}, 3, method="mc")  # type: ignore[arg-type]
+        ac.draw({"a": (0, 1)}, 3, method="mc")  # type: ignore[arg-type]
     with pytest.raises(ac.CalibrationError, match="at least one sample"):
-        ac.sample({"a": (0, 1)}, 0)
+        ac.draw({"a": (0, 1)}, 0)
 
 
 def test_oscillator_keeps_states_by_default():

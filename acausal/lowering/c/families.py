@@ -14,11 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...dae.coloring import color_columns
+from ...language.flat_model import Family
 from ...language.template import Ints
 from ...passes.schedule import Group, Kernel
 from ...symbolic.differentiate import differentiate
 from ...symbolic.expr import ZERO, Expr, add, mul, neg, par, var
 from ...symbolic.traverse import substitute
+from ..hybrid import Roots
 from ..lowered import Lowered, is_wide
 from ..repetition import Repetition
 from .emit import Writer
@@ -202,6 +204,27 @@ class Families:
         head = f"static inline void ac_k{k}_second({_ARGUMENTS}, {_SECOND})"
         return braces(head, writer.function(values, tangents))
 
+    def switches(self, roots: list[Family], begin: list[str]) -> str:
+        """The functions whose change of sign is an event."""
+        low = self.lowered
+        ids = np.concatenate([np.zeros(0, np.int64), *(f.var_rows.ravel() for f in roots)])
+        loops = self.loops(low.closure(ids, residuals=False))
+        lines = [*begin, "double *f = m->f;", *(line for loop in loops for line in loop.lines("values"))]
+        first = 0
+        for family in roots:
+            residual = reduce_strength((family.residual,))[0]
+            writer = Writer(Straight(0, {}, []), _leaf(family.var_rows.shape[1]))
+            rows, pars = self.tables.add(family.var_rows), self.tables.add(family.par_rows)
+            step = f"r += {family.var_rows.shape[1]}, q += {family.par_rows.shape[1]}"
+            lines.append("{")
+            lines.append(f"    const int *r = {rows}, *q = {pars};")
+            lines.append(f"    for (long i = 0; i < {family.size}; i++, {step}) {{")
+            lines += ["        " + line for line in writer.function([(f"g[{first} + i]", residual)])]
+            lines += ["    }", "    (void)r; (void)q;", "}"]
+            first += family.size
+        lines.append("(void)f; (void)t; (void)p; (void)v; (void)g;")
+        return braces("AC_UNUSED static void ac_roots(const ac_model *m, double t, const double *z, double *g)", lines)
+
     # ---- loops --------------------------------------------------------------------------------------------------
     def loops(self, groups: list[int]) -> list[_Loop]:
         """What is evaluated, in order."""
@@ -321,7 +344,7 @@ class _Loop:
         return [*lines, "}"]
 
 
-def functions(families: Families) -> tuple[list[str], list[str]]:
+def functions(families: Families, roots: Roots | None = None) -> tuple[list[str], list[str]]:
     """The C functions, and those that are only needed for tangents."""
     low = families.lowered
     dx = families.loops(low._groups_dx)
@@ -369,8 +392,9 @@ def functions(families: Families) -> tuple[list[str], list[str]]:
          f"for (long i = 0; i < AC_NX; i++) df[i] = dva[{slopes}[i]];",
          "(void)t; (void)ta; (void)p; (void)pa; (void)v; (void)dp;"],
     )  # fmt: skip
+    switches = families.switches(roots.families if roots is not None else [], begin)
     kernels = families.kernel_functions(False)
-    return [*kernels, values, observe, sweep], [*families.kernel_functions(True), along, second]
+    return [*kernels, values, observe, sweep, switches], [*families.kernel_functions(True), along, second]
 
 
 def _computed(low: Lowered) -> Any:

@@ -13,6 +13,7 @@ from scipy import sparse
 from ...symbolic.expr import ZERO, Expr, par
 from ...symbolic.jacobian import Row
 from ...symbolic.traverse import substitute
+from ..hybrid import Roots
 from .emit import Hoisted, Writer
 from .factor import Factorisation, factor_lines, plan_factors, solve_lines
 from .large import large_file
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from ..initial import InitialProblem
     from ..parameters import ParameterProgram
 
-RUNTIME = ("acausal.h", "solver.h", "explicit.h", "projection.h", "families.h")
+RUNTIME = ("acausal.h", "solver.h", "events.h", "explicit.h", "projection.h", "families.h")
 TANGENTS = "AC_TANGENTS"
 
 
@@ -58,6 +59,7 @@ def to_c(
     problem: InitialProblem,
     labels: Callable[[int], str] | None = None,
     *,
+    roots: Roots | None = None,
     loops: bool = False,
     observe_tangent: bool = False,
 ) -> CSource:
@@ -67,6 +69,7 @@ def to_c(
         program: its parameters.
         problem: its initialization, with the lowered equations.
         labels: name of a variable by number, for comments.
+        roots: functions whose change of sign is an event.
         loops: write families as loops, for systems that are too large to be written out.
         observe_tangent: add the tangents of all variables, for systems that are written out.
 
@@ -76,15 +79,19 @@ def to_c(
     if loops:
         if problem.lowered.n_g:
             raise NotInC("a large model with retained constraints is left to the diffrax engine")
-        text, tables = large_file(problem.lowered, program.flat.n_par, len(program.flat.inputs))
+        text, tables = large_file(problem.lowered, program.flat.n_par, len(program.flat.inputs), roots)
         return CSource(text, runtime_files(), tables)
-    return CSource(_Small(program, problem, labels).file(observe_tangent), runtime_files())
+    return CSource(_Small(program, problem, labels, roots).file(observe_tangent), runtime_files())
 
 
 class _Small:
     """A system written out in straight lines."""
 
-    def __init__(self, program: ParameterProgram, problem: InitialProblem, labels: Callable[[int], str] | None) -> None:
+    def __init__(
+        self, program: ParameterProgram, problem: InitialProblem, labels: Callable[[int], str] | None,
+        roots: Roots | None,
+    ) -> None:  # fmt: skip
+        self.roots = Roots([], np.zeros(0, np.int64), np.zeros(0, bool)) if roots is None else roots
         self.program, self.problem = program, problem
         self.lowered = lowered = problem.lowered
         self.n_par = n_par = program.flat.n_par
@@ -105,7 +112,9 @@ class _Small:
         for block in (self.field, self.invariants, self.conditions):
             block.differentiate(rows[: len(block.values)])
             rows = rows[len(block.values) :]
-        self.hoisted = Hoisted(lambda leaf: leaf.value < n_par)
+        self.switching = reduce_strength(family_residuals(s, self.roots.families))
+        held = n_par + self.n_inputs
+        self.hoisted = Hoisted(lambda leaf: leaf.value < n_par or held <= leaf.value < lowered.n_p)
         self.observed = reduce_strength(s.known.values())
         self.labels: dict[int, str] = {}
         if labels is not None:
@@ -139,17 +148,17 @@ class _Small:
             return "t"
         if node.op == "var":
             return f"z[{node.value}]"
-        if node.value < self.n_par:
-            return f"p[{node.value}]"
         k = node.value - self.n_par
-        return f"m->u[{k}]" if k < self.n_inputs else f"m->du[{k - self.n_inputs}]"
+        if 0 <= k < self.n_inputs:
+            return f"m->u[{k}]"
+        return f"p[{node.value}]" if node.value < self.lowered.n_p else f"m->du[{node.value - self.lowered.n_p}]"
 
     def _tangent(self, node: Expr) -> str | None:
         if node.op == "time":
             return None
         if node.op == "var":
             return f"dz[{node.value}]"
-        return f"dp[{node.value}]" if node.value < self.n_par + self.n_inputs else None
+        return f"dp[{node.value}]" if node.value < self.lowered.n_p else None
 
     def _function(
         self, head: str, values: Iterable[tuple[str, Expr]], tangents: Iterable[tuple[str, Expr]] = ()
@@ -211,6 +220,12 @@ class _Small:
         ]  # fmt: skip
         return braces(f"AC_UNUSED static void ac_observe_tangent({_AT}, {_DT}, ac_vector *dall)", body)
 
+    def switches(self) -> str:
+        """The functions whose change of sign is an event."""
+        return self._function(
+            f"AC_UNUSED static void ac_roots({_AT}, double *g)", [(f"g[{k}]", e) for k, e in enumerate(self.switching)]
+        )
+
     def constants(self, tangents: bool) -> str:
         """Expressions of parameters, and with tangents theirs."""
         values = [(f"c[{i}]", e) for i, e in enumerate(self.hoisted.nodes)]
@@ -254,7 +269,8 @@ class _Small:
         """The whole file."""
         plan = self.plan()
         nominal = np.concatenate([self.lowered.x_nominal, self.lowered.w_nominal])
-        functions, tangents, observe = self.functions(), self.tangent_functions(), self.observe()
+        functions, tangents = self.functions(), self.tangent_functions()
+        functions += [self.observe(), self.switches()]
         if observe_tangent:
             tangents.append(self.observe_tangent())
         constants, constants_tangent = self.constants(False), self.constants(True)
@@ -263,11 +279,13 @@ class _Small:
             "AC_NC": len(self.hoisted.nodes), "AC_NU": self.n_inputs, "AC_NPAR": self.n_par, "AC_NP": self.lowered.n_p,
             "AC_NG": len(self.invariants.values), "AC_NGZ": len(self.invariants.entries),
             "AC_NI": len(self.conditions.values), "AC_NIZ": len(self.conditions.entries),
-            "AC_NALL": self.lowered.n_ids,
+            "AC_NALL": self.lowered.n_ids, "AC_NR": self.roots.count,
         }  # fmt: skip
         head = [f"#define {name} {value}" for name, value in sizes.items()]
         arrays = [*self.field.arrays("ac"), *self.invariants.arrays("ac_g"), *self.conditions.arrays("ac_i")]
         arrays.append(array("double", "ac_nominal", nominal.tolist()))
+        arrays.append(array("int", "ac_root_slot", self.roots.slots.tolist()))
+        arrays.append(array("int", "ac_root_strict", self.roots.strict.astype(int).tolist()))
         factor = [
             braces(
                 "static int ac_factor(const ac_model *m, double d, const double *J, double *F)",
@@ -281,7 +299,7 @@ class _Small:
         )
         parts = [
             *head, '#include "acausal.h"', *arrays, *tableau_lines(), *self.parameters(False), constants, *functions,
-            observe, *factor, f"#ifdef {TANGENTS}", *self.parameters(True), constants_tangent, *tangents, along,
+            *factor, f"#ifdef {TANGENTS}", *self.parameters(True), constants_tangent, *tangents, along,
             "#endif", '#include "solver.h"',
         ]  # fmt: skip
         return "\n".join(parts) + "\n"

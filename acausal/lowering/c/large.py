@@ -13,13 +13,14 @@ from .tableau import tableau_lines
 from .text import braces
 
 if TYPE_CHECKING:
+    from ..hybrid import Roots
     from ..lowered import Lowered
 
 
-def large_file(lowered: Lowered, n_par: int, n_inputs: int) -> tuple[str, list[Any]]:
+def large_file(lowered: Lowered, n_par: int, n_inputs: int, roots: Roots | None = None) -> tuple[str, list[Any]]:
     """C text, and the tables that the compiled code is given."""
     families = Families(lowered, n_par, n_inputs)
-    own, along = functions(families)
+    own, along = functions(families, roots)
     pattern = families.pattern
     coo = pattern.tocoo()
     n = pattern.shape[0]
@@ -31,9 +32,12 @@ def large_file(lowered: Lowered, n_par: int, n_inputs: int) -> tuple[str, list[A
     sizes = {
         "AC_N": n, "AC_NX": lowered.n_x, "AC_NZ": coo.nnz, "AC_NF": plan.size, "AC_NC": 0, "AC_NU": n_inputs,
         "AC_NPAR": n_par, "AC_NP": lowered.n_p, "AC_NG": 0, "AC_NGZ": 0, "AC_NI": 0, "AC_NIZ": 0,
-        "AC_NALL": lowered.n_ids, "AC_COLORS": colors, "AC_LU_SIZE": len(plan.indices),
+        "AC_NALL": lowered.n_ids, "AC_NR": 0 if roots is None else roots.count, "AC_COLORS": colors,
+        "AC_LU_SIZE": len(plan.indices),
     }  # fmt: skip
     places = {"AC_COLOR_TABLE": families.color, "AC_ROW_TABLE": coo.row, "AC_COLUMN_TABLE": coo.col}
+    if roots is not None:
+        places |= {"AC_ROOT_SLOT_TABLE": roots.slots, "AC_ROOT_STRICT_TABLE": roots.strict}
     head = ["#define AC_FAMILIES 1", *(f"#define {name} {value}" for name, value in sizes.items())]
     for name, values in places.items():
         tables.add(values)
@@ -41,7 +45,8 @@ def large_file(lowered: Lowered, n_par: int, n_inputs: int) -> tuple[str, list[A
     head += factor_tables(plan, tables)
     head += [
         "#define ac_row (w->m.index[AC_ROW_TABLE])", "#define ac_column (w->m.index[AC_COLUMN_TABLE])",
-        "#define ac_nominal (w->m.nominal)",
+        "#define ac_nominal (w->m.nominal)", "#define ac_root_slot (w->m.index[AC_ROOT_SLOT_TABLE])",
+        "#define ac_root_strict (w->m.index[AC_ROOT_STRICT_TABLE])",
     ]  # fmt: skip
     constants = "static void ac_constants(const double *p, double *c) { (void)p; (void)c; }"
     constants_along = braces(

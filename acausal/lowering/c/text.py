@@ -16,8 +16,8 @@ FUNCTIONS = {
 }  # fmt: skip
 """Operators that are calls of a function of the C library or of the runtime."""
 
-INFIX = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and": "&&", "or": "||", "mul": "*", "div": "/"}
-CONDITIONS = frozenset({"lt", "le", "gt", "ge", "and", "or", "not"})
+INFIX = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "eq": "==", "and": "&&", "or": "||", "mul": "*", "div": "/"}
+CONDITIONS = frozenset({"lt", "le", "gt", "ge", "eq", "and", "or", "not"})
 COST = {"div": 4, "sqrt": 6, "pow": 40, "mod": 12} | dict.fromkeys(
     ["sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "exp", "log", "log10"], 20
 )

@@ -5,40 +5,11 @@
    same book, III.5 (formulas) and III.7 (order and step size). */
 
 #define AC_ORDERS 12
-#define AC_NEWTON 20
 
 typedef struct {
     double k[4][AC_N], phi[AC_ORDERS + 3][AC_N], past[AC_ORDERS + 2][AC_N];
     double f1[AC_N], predicted[AC_N], x[AC_ORDERS + 2], z0[AC_N], ignored[AC_N];
 } ac_explicit_work;
-
-/* dz: the derivatives of the states at (t, x); w goes along in z and is improved by Newton's method. 0 if it converged. */
-static int ac_slope(ac_work *w, double t, double *z, double *dz) {
-    if (AC_N == AC_NX) {
-        ac_value(w, t, z, dz);
-        return 0;
-    }
-    double before = INFINITY;
-    for (int turn = 0; turn < AC_NEWTON; turn++) {
-        double *ignored = w->v[0], *r = w->v[1], size = 0.0;
-        ac_inputs(w, t);
-        ac_field_jacobian(&w->m, t, z, dz, ignored, w->J);
-        if (ac_factorise(w, 1e30)) return 1; /* the states stand still, the algebraic unknowns follow */
-        for (int i = 0; i < AC_N; i++) r[i] = i < AC_NX ? 0.0 : dz[i];
-        ac_back(w, r);
-        for (int i = AC_NX; i < AC_N; i++) {
-            z[i] += r[i];
-            size = ac_max(size, fabs(r[i]) / ac_max(fabs(z[i]), ac_nominal[i]));
-            if (!(r[i] - r[i] == 0.0)) return 1;
-        }
-        if (size <= 1e-13 || (size <= 1e-9 && size >= 0.5 * before)) {
-            ac_value(w, t, z, dz);
-            return 0;
-        }
-        before = size;
-    }
-    return 1;
-}
 
 static void ac_hermite(
     double s, double h, const double *y0, const double *f0, const double *y1, const double *f1, double *out) {

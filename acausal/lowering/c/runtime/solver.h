@@ -9,7 +9,7 @@
    Differential Equations II, IV.7 (implementation) and IV.8 (step size); the tangents differentiate the step itself. */
 
 enum { AC_RODAS5P, AC_RK4, AC_ADAMS };
-enum { AC_DONE, AC_MAX_STEPS, AC_SMALLEST_STEP, AC_SINGULAR, AC_NO_MEMORY, AC_STOPPED };
+enum { AC_DONE, AC_MAX_STEPS, AC_SMALLEST_STEP, AC_SINGULAR, AC_NO_MEMORY, AC_STOPPED, AC_EVENT };
 
 typedef struct {
     double t0, t1, rtol, first_step, smallest;
@@ -29,6 +29,10 @@ typedef struct {
     double t_end;
     long steps, accepted, rejected, pivoted, saved;
     const volatile int *stop;      /* set from outside to end the run */
+    int located;                   /* events end the run */
+    int open;                      /* nothing is saved at t1 */
+    double step;                   /* to go on with after t_end */
+    int *switched;                 /* (AC_NR) conditions that have switched at t_end */
 } ac_problem;
 
 #if AC_NG > 0
@@ -53,6 +57,10 @@ typedef struct {
 #else
     int pivot[AC_N];
     double dense[AC_N * AC_N];
+#endif
+#if AC_NR > 0
+    double g0[AC_NR], g1[AC_NR], g2[AC_NR], g3[AC_NR], slack[AC_NR], rate[AC_NR];
+    char candidate[AC_NR];
 #endif
 #if AC_NG > 0
     ac_projection projection;
@@ -186,6 +194,7 @@ AC_DENSE_OUTPUT(ac_interpolate, double)
 #if AC_NG > 0
 #include "projection.h"
 #endif
+#include "events.h"
 #ifdef AC_TANGENTS
 AC_DENSE_OUTPUT(ac_interpolate_vector, ac_vector)
 AC_BACK(ac_back_vector, ac_vector, ac_solve_vector, ac_dense_solve_vector)
@@ -288,7 +297,11 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
     ac_tangent_work *d = tangents;
     if (d) memcpy(d->dz1, d->dz, sizeof d->dz), memset(d->dv, 0, sizeof d->dv);
 #endif
-    while (q->saved < q->n_save && direction * (q->save[q->saved] - t) <= 0.0) ac_save(q, q->saved++, 0.0, w, tangents);
+    while (q->saved < q->n_save && direction * (q->save[q->saved] - t) <= (q->open && t == q->t1 ? -1e300 : 0.0))
+        ac_save(q, q->saved++, 0.0, w, tangents);
+#if AC_NR > 0
+    if (q->located) ac_arm(w, t);
+#endif
     while (direction * (q->t1 - t) > 0.0) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
         if (q->stop && *q->stop) return AC_STOPPED;
@@ -301,7 +314,7 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
             ac_field_jacobian(&w->m, t, w->z, w->f, w->ft, w->J);
             fresh = 1;
         }
-        const double step = direction * h;
+        double step = direction * h;
         q->steps++;
         const int singular = ac_factorise(w, 1.0 / (ac_gamma * step));
         q->pivoted += w->pivoted;
@@ -333,16 +346,24 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
         h_before = h;
         error_before = ac_max(size, 1e-2);
         rejected_before = 0;
+        int event = 0;
+#if AC_NR > 0
+        if (q->located) {
+            event = ac_to_switch(w, t, &step);
+            if (event < 0) return AC_SINGULAR;
+        }
+#endif
 #ifdef AC_TANGENTS
         if (d) ac_step_tangent(w, d, t, step);
 #endif
-        const double t1 = last ? q->t1 : t + step;
+        const double t1 = last && !event ? q->t1 : t + step;
 #if AC_NG > 0
         ac_project(w, tangents, t1);
 #endif
-        if (q->saved < q->n_save && direction * (q->save[q->saved] - t1) <= 0.0) {
+        const double until = event || (q->open && last) ? -1e-300 : 0.0; /* what is saved at an event is what follows */
+        if (q->saved < q->n_save && direction * (q->save[q->saved] - t1) <= until) {
             for (int r = 0; r < 3; r++) ac_combine(w, ac_H[r], NULL, w->v[r]);
-            for (; q->saved < q->n_save && direction * (q->save[q->saved] - t1) <= 0.0; q->saved++)
+            for (; q->saved < q->n_save && direction * (q->save[q->saved] - t1) <= until; q->saved++)
                 ac_save(q, q->saved, (q->save[q->saved] - t) / step, w, tangents);
         }
         memcpy(w->z, w->z1, sizeof w->z);
@@ -352,7 +373,21 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
         q->accepted++;
         t = q->t_end = t1;
         fresh = 0;
-        h = next;
+        q->step = h = next;
+#if AC_NR > 0
+        if (q->located) {
+            for (int k = 0; event && k < AC_NR; k++) q->switched[k] = ac_switched(w, w->g2, k);
+            if (event) return AC_EVENT;
+            for (int k = 0; k < AC_NR; k++) {
+                w->g0[k] = w->g2[k];
+                if (w->slack[k] > 0.0) {
+                    const double slack = w->slack[k];
+                    w->slack[k] = 0.0;
+                    if (ac_switched(w, w->g2, k)) w->slack[k] = slack;
+                }
+            }
+        }
+#endif
     }
     return AC_DONE;
 }
@@ -368,7 +403,7 @@ static int ac_explicit(ac_problem *q, ac_work *w) {
 }
 
 AC_EXPORT long acausal_size(int which) {
-    const long sizes[] = {AC_N, AC_NX, AC_NP, AC_NI, AC_NIZ, AC_NALL, AC_LANES, sizeof(ac_problem)};
+    const long sizes[] = {AC_N, AC_NX, AC_NP, AC_NI, AC_NIZ, AC_NALL, AC_LANES, sizeof(ac_problem), AC_NR};
     return sizes[which];
 }
 
@@ -431,6 +466,22 @@ AC_EXPORT void acausal_conditions(const double *p, double t, const double *z, do
 }
 
 #endif
+
+/* The algebraic unknowns in z from the states in z, by Newton's method from what they are; 0 if it converged. */
+AC_EXPORT int acausal_settle(
+    const double *p, const ac_signal *signals, const int *const *index, const double *nominal, double t, double *z) {
+    ac_work *w = calloc(1, sizeof *w);
+    if (!w) return 1;
+    w->m.p = p, w->m.c = w->c, w->m.u = w->u, w->m.du = w->du, w->m.signals = signals, w->m.index = index;
+    w->m.nominal = nominal;
+#ifdef AC_FAMILIES
+    ac_room(&w->m, w, p);
+#endif
+    ac_constants(p, w->c);
+    const int failed = ac_slope(w, t, z, w->f);
+    free(w);
+    return failed;
+}
 
 /* Every variable at n points; inputs follow their signals. 0, or 1 where there is no memory. */
 AC_EXPORT int acausal_observe(

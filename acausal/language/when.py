@@ -1,0 +1,72 @@
+"""`when` and `assert_` as equations and actions of a class.
+
+A discrete variable d that is assigned obeys ``d = where(triggered, value, pre(d))``: an equation like any other, which
+is sorted and solved with all others. What `reinit`, `assert_` and `terminate` do stays beside the equations.
+"""
+
+from __future__ import annotations
+
+from ..errors import DeclarationError
+from ..symbolic.equation import Origin
+from ..symbolic.expr import Expr, intern_node, make
+from .declarations import Kind
+from .events import Assert, Branch, Reinit, When
+from .template import Template, TemplateAction, TemplateEquation
+
+
+def statements(item: When, template: Template, origin: Origin) -> tuple[list[TemplateEquation], list[TemplateAction]]:
+    """Equations and actions of a `when` statement.
+
+    Raises:
+        DeclarationError: it assigns something that cannot be assigned.
+    """
+    triggers = [make("triggered", branch.conditions) for branch in item.branches]
+    assigned: dict[Expr, list[tuple[Expr, Expr]]] = {}
+    actions: list[TemplateAction] = []
+    earlier: Expr | None = None
+    for trigger, branch in zip(triggers, item.branches, strict=True):
+        active = trigger if earlier is None else trigger & ~earlier
+        for target, value in branch.values:
+            if _kind(template, target, origin) == Kind.DISCRETE:
+                assigned.setdefault(target, []).append((active, value))
+        actions += [_reinit(r, active, template, origin) for r in _reinits(branch, template, origin)]
+        if branch.terminate is not None:
+            actions.append(TemplateAction(intern_node("terminate", (active,), branch.terminate.message), origin))
+        earlier = trigger if earlier is None else earlier | trigger
+    equations: list[TemplateEquation] = []
+    for target, choices in assigned.items():
+        new = make("pre", (target,))
+        for active, value in reversed(choices):
+            new = make("where", (active, value, new))
+        equations.append(TemplateEquation(target, new, origin))
+    return equations, actions
+
+
+def _reinits(branch: Branch, template: Template, origin: Origin) -> list[Reinit]:
+    given = [Reinit(t, v) for t, v in branch.values if _kind(template, t, origin) != Kind.DISCRETE]
+    return [*given, *branch.reinits]
+
+
+def _reinit(item: Reinit, active: Expr, template: Template, origin: Origin) -> TemplateAction:
+    if _kind(template, item.target, origin) == Kind.DISCRETE:
+        raise DeclarationError(
+            f"reinit({item.target}, ...): a `Discrete` is assigned, `when(condition, {{{item.target}: ...}})` "
+            f"({origin})"
+        )
+    return TemplateAction(intern_node("reinit", (item.target, active, item.value)), origin)
+
+
+def _kind(template: Template, target: Expr, origin: Origin) -> Kind:
+    declaration = template.resolve(target.value).declaration
+    if declaration is None or declaration.kind in (Kind.PARAMETER, Kind.INPUT):
+        what = "a component" if declaration is None else declaration.kind.name.lower()
+        raise DeclarationError(
+            f"`{target}` is {'' if declaration is None else 'of kind '}{what} and cannot be assigned in `when`: "
+            f"declare it as `{target}: Discrete = Discrete()` ({origin})"
+        )
+    return declaration.kind
+
+
+def assertion(item: Assert, origin: Origin) -> TemplateAction:
+    """The action of `assert_`."""
+    return TemplateAction(intern_node("assert", (item.condition,), (item.message, item.level)), origin)

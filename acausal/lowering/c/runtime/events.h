@@ -1,0 +1,195 @@
+/* Events: a step at whose end a condition is not as its mode says is shortened until it ends just behind the switch.
+
+   A condition k holds where g_k < 0 (or <= 0); its mode is a parameter that is held during a run. The earliest switch is
+   found on the dense output, where the functions are looked at inside of the step as well; then steps are taken up to it,
+   with Newton's method for its time, so that the result does not depend on the interpolation.
+   Shampine and Thompson (2000), Event location for ordinary differential equations, Comput. Math. Appl. 39. */
+
+#define AC_NEWTON 20
+
+/* dz: the derivatives of the states at (t, x); w goes along in z and is improved by Newton's method. 0 if it converged. */
+static int ac_slope(ac_work *w, double t, double *z, double *dz) {
+    if (AC_N == AC_NX) {
+        ac_value(w, t, z, dz);
+        return 0;
+    }
+    double before = INFINITY;
+    for (int turn = 0; turn < AC_NEWTON; turn++) {
+        double *ignored = w->v[0], *r = w->v[1], size = 0.0;
+        ac_inputs(w, t);
+        ac_field_jacobian(&w->m, t, z, dz, ignored, w->J);
+        if (ac_factorise(w, 1e30)) return 1; /* the states stand still, the algebraic unknowns follow */
+        for (int i = 0; i < AC_N; i++) r[i] = i < AC_NX ? 0.0 : dz[i];
+        ac_back(w, r);
+        for (int i = AC_NX; i < AC_N; i++) {
+            z[i] += r[i];
+            size = ac_max(size, fabs(r[i]) / ac_max(fabs(z[i]), ac_nominal[i]));
+            if (!(r[i] - r[i] == 0.0)) return 1;
+        }
+        if (size <= 1e-13 || (size <= 1e-9 && size >= 0.5 * before)) {
+            ac_value(w, t, z, dz);
+            return 0;
+        }
+        before = size;
+    }
+    return 1;
+}
+
+#if AC_NR > 0
+/* How far condition k is on the other side than its mode says; what is positive counts, or 0 too where `at_zero`. */
+static inline double ac_beyond(const ac_work *w, const double *g, int k, int *at_zero) {
+    const int slot = ac_root_slot[k], holds = slot < 0 || w->m.p[slot] != 0.0;
+    *at_zero = holds == ac_root_strict[k];
+    return holds ? g[k] : -g[k];
+}
+
+static inline int ac_switched(const ac_work *w, const double *g, int k) {
+    int at_zero;
+    const double beyond = ac_beyond(w, g, k, &at_zero);
+    return w->slack[k] > 0.0 ? beyond > w->slack[k] : beyond > 0.0 || (at_zero && beyond == 0.0);
+}
+
+static int ac_any(const ac_work *w, const double *g) {
+    for (int k = 0; k < AC_NR; k++)
+        if (ac_switched(w, g, k)) return 1;
+    return 0;
+}
+
+/* Conditions that disagree with their mode at the start of a run by rounding have some slack until they agree. */
+static void ac_arm(ac_work *w, double t) {
+    ac_inputs(w, t);
+    ac_roots(&w->m, t, w->z, w->g0);
+    memset(w->slack, 0, sizeof w->slack);
+    for (int k = 0; k < AC_NR; k++)
+        if (ac_switched(w, w->g0, k)) w->slack[k] = 10.0 * fabs(w->g0[k]) + 1e-12;
+}
+
+static void ac_at(ac_work *w, double t, double h, double s, double *g) {
+    ac_interpolate(s, w->z, w->z1, w->v, w->y);
+    ac_inputs(w, t + s * h);
+    ac_roots(&w->m, t + s * h, w->y, g);
+}
+
+/* Where in the step (0, 1] something has switched, on the dense output: just behind the first switch found; 2 if none.
+   Looked at are the end, the middle, and where a parabola through three values has its extremum. */
+static double ac_first_switch(ac_work *w, double t, double h) {
+    double from = 0.0, to = 2.0;
+    ac_at(w, t, h, 0.5, w->g1);
+    ac_inputs(w, t + h);
+    ac_roots(&w->m, t + h, w->z1, w->g2);
+    const int middle = ac_any(w, w->g1), end = ac_any(w, w->g2);
+    if (middle) to = 0.5;
+    else if (end) from = 0.5, to = 1.0;
+    double nearest = 2.0;
+    for (int k = 0; k < AC_NR; k++) { /* there and back within the step */
+        int at_zero;
+        const double a = ac_beyond(w, w->g0, k, &at_zero), b = ac_beyond(w, w->g1, k, &at_zero);
+        const double c = ac_beyond(w, w->g2, k, &at_zero), bend = 2.0 * (a - 2.0 * b + c), rise = 4.0 * b - 3.0 * a - c;
+        if (!(bend < 0.0)) continue;
+        const double top = -0.5 * rise / bend, height = a + top * (rise + top * bend);
+        const double most = ac_max(a, ac_max(b, c));
+        if (!(top > 0.0 && top < 1.0 && height > most)) continue;
+        if (!(height + 0.5 * (height - most) + 0.1 * fabs(most) > 0.0)) continue;
+        if (top < nearest && top < to) nearest = top;
+    }
+    if (nearest < to) {
+        ac_at(w, t, h, nearest, w->g3);
+        if (ac_any(w, w->g3)) from = nearest > 0.5 ? ac_min(from, nearest) : 0.0, to = nearest;
+    }
+    if (to > 1.0) return 2.0;
+    for (int turn = 0; turn < 200 && (to - from) * fabs(h) > 4e-16 * fabs(t) + 1e-18 * fabs(h); turn++) {
+        double s = 0.5 * (from + to);
+        if (turn % 3) { /* the secant of what switches first */
+            double first = 2.0;
+            ac_at(w, t, h, from, w->g1);
+            ac_at(w, t, h, to, w->g3);
+            for (int k = 0; k < AC_NR; k++) {
+                int at_zero;
+                if (!ac_switched(w, w->g3, k)) continue;
+                const double a = ac_beyond(w, w->g1, k, &at_zero) - w->slack[k];
+                const double b = ac_beyond(w, w->g3, k, &at_zero) - w->slack[k];
+                const double at = a < 0.0 ? from - a * (to - from) / (b - a) : from;
+                first = ac_min(first, at);
+            }
+            const double width = to - from; /* once behind it, once before it */
+            s = first + (turn % 3 == 1 ? 1e-3 : -1e-3) * width;
+            if (width < 1e-9) s = turn % 3 == 1 ? first + 1e-14 : first;
+            if (!(s > from && s < to)) s = 0.5 * (from + to);
+        }
+        if (s <= from || s >= to) break;
+        ac_at(w, t, h, s, w->g1);
+        if (ac_any(w, w->g1)) to = s;
+        else from = s;
+    }
+    return to;
+}
+
+/* The step of size h again, from the same start; 1 if it cannot be made. */
+static int ac_again(ac_work *w, double t, double h) {
+    ac_inputs(w, t);
+    ac_field_jacobian(&w->m, t, w->z, w->f, w->ft, w->J);
+    if (ac_factorise(w, 1.0 / (ac_gamma * h))) return 1;
+    ac_stages(w, t, h);
+    ac_combine(w, ac_B, w->z, w->z1);
+    return 0;
+}
+
+static int ac_ends(ac_work *w, double t1) {
+#if AC_NG > 0
+    ac_project(w, NULL, t1);
+#endif
+    if (AC_N > AC_NX && ac_slope(w, t1, w->z1, w->y)) return 1;
+    ac_inputs(w, t1);
+    ac_roots(&w->m, t1, w->z1, w->g2);
+    return 0;
+}
+
+/* Shortens the step that w holds to the first switch in it. 1: it now ends there; 0: nothing switches; -1: failure.
+   In the end w has the stages and factors of the step of size *step, and z1 (consistent) at its end. */
+static int ac_to_switch(ac_work *w, double t, double *step) {
+    const double h = *step;
+    for (int r = 0; r < 3; r++) ac_combine(w, ac_H[r], NULL, w->v[r]);
+    double s = ac_first_switch(w, t, h);
+    if (s > 1.0) return 0;
+    /* rates at which the conditions pass, on the dense output */
+    const double aside = ac_max(1e-6, 1e-12 * fabs(t / h)), back = s > aside ? s - aside : 0.0;
+    ac_at(w, t, h, back, w->g1);
+    ac_at(w, t, h, s, w->g3);
+    for (int k = 0; k < AC_NR; k++) {
+        int at_zero;
+        w->rate[k] = (ac_beyond(w, w->g3, k, &at_zero) - ac_beyond(w, w->g1, k, &at_zero)) / (s - back);
+        w->candidate[k] = ac_switched(w, w->g3, k);
+    }
+    double further = 2e-16 * ac_max(fabs(t / h), 1.0);
+    for (int turn = 0; turn < 40; turn++) {
+        if (s > 1.0) s = 1.0;
+        if (ac_again(w, t, s * h) || ac_ends(w, t + s * h)) return -1;
+        double over = -INFINITY;
+        for (int k = 0; k < AC_NR; k++) {
+            int at_zero;
+            if (!w->candidate[k] && !ac_switched(w, w->g2, k)) continue;
+            const double by = (ac_beyond(w, w->g2, k, &at_zero) - w->slack[k]) / w->rate[k];
+            if (w->rate[k] > 0.0 && by - by == 0.0) over = ac_max(over, by);
+        }
+        const int behind = ac_any(w, w->g2);
+        const int close = fabs(over) <= 1e-12 + 4e-16 * fabs(t / h);
+        if (behind && (close || turn > 6 || !(over > 0.0))) {
+            *step = s * h;
+            if (AC_N > AC_NX) { /* the factors of the step, which Newton's method has replaced */
+                ac_inputs(w, t);
+                ac_field_jacobian(&w->m, t, w->z, w->f, w->ft, w->J);
+                if (ac_factorise(w, 1.0 / (ac_gamma * *step))) return -1;
+            }
+            return 1;
+        }
+        if (behind) {
+            s = ac_max(s - over, 1e-3 * s);
+            continue;
+        }
+        if (s >= 1.0) break;
+        if (turn < 4 && over < 0.0 && over > -0.5) s -= over;
+        s += further, further *= 4.0;
+    }
+    return ac_again(w, t, h) ? -1 : 0; /* on the dense output only: the step as it was */
+}
+#endif

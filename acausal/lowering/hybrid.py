@@ -1,0 +1,178 @@
+"""The slots and actions of a hybrid model over the reduced variables, and their values at one point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..language.flat_model import Bools, Family, FlatModel
+from ..language.template import Floats, Ints
+from ..passes.specialize import specialize
+from ..symbolic.expr import ONE, Expr, add, neg
+from ..symbolic.traverse import evaluate
+
+Values = Floats
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Piece:
+    """Expressions over the rows of a family.
+
+    Attributes:
+        forms: the expressions.
+        rows: where their variables and parameters are.
+        slots: what they determine, one number a row (of an action: nothing).
+    """
+
+    forms: tuple[Expr, ...]
+    rows: Family
+    slots: Ints
+
+    def values(self, run: Any) -> list[Any]:
+        """Values of all forms, each (n,); `run` has values of variables and parameters, and the time."""
+        return [np.broadcast_to(np.asarray(v, float), (self.rows.size,)) for v in run.evaluate(self.forms, self.rows)]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Roots:
+    """Functions whose change of sign is an event.
+
+    Attributes:
+        families: of the functions g, over the reduced variables.
+        slots: (n,) mode of each, or -1 where g < 0 must hold until the next event.
+        strict: (n,) whether the condition is g < 0 and not g <= 0.
+        pieces: (n,) number of the family of `FlatModel.slots.pieces`, and the row in it, for messages.
+    """
+
+    families: list[Family]
+    slots: Ints
+    strict: Bools
+
+    @property
+    def count(self) -> int:
+        """Number of functions."""
+        return len(self.slots)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reinits:
+    """States that get new values: forms are (trigger, value); `targets` and `signs` say whose."""
+
+    piece: Piece
+    targets: Ints
+    signs: Ints
+
+
+@dataclass(eq=False)
+class Hybrid:
+    """How the slots of a model are determined, and what happens at its events.
+
+    Attributes:
+        flat: the model, for names.
+        first: number of the first slot among the parameters.
+    """
+
+    flat: FlatModel
+    first: int
+    relations: list[Piece]
+    strict: list[bool]
+    floors: list[Piece]
+    pres: list[Piece]
+    triggers: list[Piece]
+    samples: list[Piece]
+    reinits: list[Reinits]
+    asserts: list[tuple[Piece, str, str]]
+    ends: list[tuple[Piece, str]]
+    roots: Roots
+
+    @property
+    def slots(self) -> slice:
+        """Where the slots are among the parameters."""
+        return slice(self.first, self.first + self.flat.slots.count)
+
+    def text(self, slot: int) -> str:
+        """What a slot is about, with component and source line."""
+        flat = self.flat
+        for family in flat.slots.pieces:
+            rows = np.flatnonzero(family.par_rows[:, family.residual.args[0].value] == slot)
+            if len(rows):
+                component, place = flat.equation_place(family, int(rows[0]))
+                where = f"{component}, " if component else ""
+                return f"`{flat.piece_text(family, int(rows[0]))}` ({where}{place})"
+        return f"`{flat.slot_text(slot)}`"
+
+
+class Point:
+    """Values at one time, for evaluating pieces."""
+
+    def __init__(self, t: float, values: Floats, p: Floats) -> None:
+        self.t, self.v, self.p = t, values, p
+
+    def evaluate(self, forms: tuple[Expr, ...], rows: Family) -> list[Any]:
+        """Values of expressions, each a number or (n,)."""
+
+        def leaf(node: Expr) -> Any:
+            if node.op == "time":
+                return self.t
+            if node.op == "par":
+                return self.p[rows.par_rows[:, node.value]]
+            return self.v[rows.var_rows[:, node.value]]
+
+        with np.errstate(all="ignore"):
+            return evaluate(forms, leaf, np)
+
+
+def make_hybrid(flat: FlatModel, representative: Ints, sign: Ints) -> Hybrid | None:
+    """Slots and actions over the reduced variables; None for a model without events."""
+    slots = flat.slots
+    if not slots.count and not flat.actions:
+        return None
+    groups: dict[str, list[Piece]] = {op: [] for op in ("relation", "floor", "pre", "triggered", "sample")}
+    strict: list[bool] = []
+    families: list[Family] = []
+    root_slots: list[Ints] = []
+    root_strict: list[Bools] = []
+    for family in specialize(slots.pieces, representative, sign):
+        form, at = family.residual, family.par_rows[:, family.residual.args[0].value]
+        forms = form.args[1:]
+        if form.op == "relation":
+            a, b = forms if form.value in ("lt", "le") else forms[::-1]
+            forms = (add(a, neg(b)),)
+            strict.append(form.value in ("lt", "gt"))
+            families.append(Family(forms[0], family.var_rows, family.par_rows, family.source, family.ordinal))
+            root_slots.append(at)
+            root_strict.append(np.full(len(at), strict[-1]))
+        elif form.op == "floor":
+            below, above = add(form.args[0], neg(forms[0])), add(forms[0], neg(form.args[0]), neg(ONE))
+            for g, is_strict in ((below, False), (above, True)):
+                families.append(Family(g, family.var_rows, family.par_rows, family.source, family.ordinal))
+                root_slots.append(np.full(len(at), -1))
+                root_strict.append(np.full(len(at), is_strict))
+        groups[form.op].append(Piece(forms, family, at))
+    none = np.zeros(0, np.int64)
+    roots = Roots(families, np.concatenate([none, *root_slots]), np.concatenate([none, *root_strict]).astype(bool))
+    hybrid = Hybrid(
+        flat, flat.n_par + len(flat.inputs), groups["relation"], strict, groups["floor"], groups["pre"],
+        groups["triggered"], groups["sample"], [], [], [], roots,
+    )  # fmt: skip
+    for family in specialize(flat.actions, representative, sign):
+        _action(hybrid, family)
+    return hybrid
+
+
+def _action(hybrid: Hybrid, family: Family) -> None:
+    form, none = family.residual, np.zeros(0, np.int64)
+    if form.op == "reinit":
+        target, trigger, value = form.args
+        leaf = target.args[0] if target.op == "neg" else target
+        if leaf.op == "var":
+            n = family.size
+            signs = np.full(n, -1 if target.op == "neg" else 1)
+            piece = Piece((trigger, value), family, none)
+            hybrid.reinits.append(Reinits(piece, family.var_rows[:, leaf.value], signs))
+    elif form.op == "assert":
+        hybrid.asserts.append((Piece(form.args, family, none), *form.value))
+    else:
+        hybrid.ends.append((Piece(form.args, family, none), form.value))

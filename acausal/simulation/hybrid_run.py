@@ -1,0 +1,191 @@
+"""A run with events: from one event to the next, on either engine."""
+
+from __future__ import annotations
+
+import warnings
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+import numpy as np
+
+from acausal.errors import SimulationError
+from acausal.lowering.hybrid import Hybrid
+
+from .event_iteration import EventIteration, Outcome
+from .native_library import RESULTS, Floats
+
+CLOSE, SHRINKING, MANY_SHRINKING = 1e-7, 0.999, 20
+"""So many events in a row, each sooner than the last, within this part of the run: they accumulate."""
+STUCK, MANY_STUCK = 1e-10, 60
+"""So many events in a row without time passing, to this part of the run: they chatter."""
+EVENT = RESULTS.index("event_occurred")
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something that happened.
+
+    Attributes:
+        t: time [s].
+        causes: the conditions that switched and the triggers, as the user wrote them, with component and source line.
+    """
+
+    t: float
+    causes: tuple[str, ...]
+
+
+class Segment(Protocol):
+    """What an engine returns for a stretch between events; as `acausal.simulation.native_library.Run`."""
+
+    z: Any
+    code: int
+    saved: int
+    t_end: float
+    z_end: Any
+    step: float
+    switched: Any
+    counts: dict[str, int]
+
+
+Integrate = Callable[[float, float, Floats, Floats, Floats, float, bool, int], Segment]
+"""(t, t_stop, z, p, output times, first step, end open, steps left) to a segment."""
+
+
+@dataclass(eq=False)
+class HybridRun:
+    """Trajectories with events.
+
+    Attributes:
+        z: (n_saved, n_z).
+        slots: (n_saved, n_slots).
+        events: in order.
+        code, t_end, z_end, p_end, counts: as of a run without events; the code of an end by `terminate` is 0.
+        ended: message of `terminate`.
+    """
+
+    z: Floats
+    slots: Floats
+    events: list[Event]
+    code: int
+    t_end: float
+    z_end: Floats
+    p_end: Floats
+    counts: dict[str, int]
+    ended: str | None
+    save: Floats
+
+
+@dataclass(eq=False)
+class _Record:
+    """What is collected on the way."""
+
+    hybrid: Hybrid
+    span: float
+    z: list[Any] = field(default_factory=list[Any])
+    slots: list[Any] = field(default_factory=list[Any])
+    events: list[Event] = field(default_factory=list[Event])
+    counts: dict[str, int] = field(default_factory=dict[str, int])
+    recent: deque[tuple[float, list[int]]] = field(default_factory=lambda: deque(maxlen=MANY_STUCK + 1))
+
+    def segment(self, segment: Segment, p: Floats) -> None:
+        self.z.append(segment.z[: segment.saved])
+        self.slots.append(np.broadcast_to(p[self.hybrid.slots], (segment.saved, self.hybrid.flat.slots.count)))
+        for name, n in segment.counts.items():
+            self.counts[name] = self.counts.get(name, 0) + n
+
+    def event(self, t: float, slots: list[int]) -> None:
+        """Note an event; those that do not let time pass are an error."""
+        self.events.append(Event(t, tuple(dict.fromkeys(self.hybrid.text(s) for s in slots))))
+        self.recent.append((t, slots))
+        gaps = np.abs(np.diff([at for at, _ in self.recent]))
+        if len(gaps) >= MANY_STUCK and (gaps < STUCK * self.span).all():
+            self._fail(t, "chatters: it switches again as soon as it has switched", gaps)
+        pairs = (gaps[1:] + gaps[:-1])[-MANY_SHRINKING:]  # a condition may switch there and back each time
+        close = len(pairs) == MANY_SHRINKING and bool((pairs < CLOSE * self.span).all())
+        if close and (pairs[2:] < SHRINKING * pairs[:-2]).all():
+            self._fail(t, "switches ever faster: its events accumulate at this time", gaps)
+
+    def _fail(self, t: float, what: str, gaps: Any) -> None:
+        counts: dict[int, int] = {}
+        for _, slots in self.recent:
+            for slot in dict.fromkeys(slots):
+                counts[slot] = counts.get(slot, 0) + 1
+        often = sorted(counts, key=lambda s: -counts[s])
+        named = [s for s in often if 2 * counts[s] >= counts[often[0]]][:4]
+        raise SimulationError(
+            f"At t = {t:.12g} s a condition {what} ({len(gaps)} events within {gaps.sum():.2g} s):\n"
+            + "\n".join(f"    {self.hybrid.text(s)}" for s in named)
+            + "\nTry: a mode of its own for what the model does there (sticking, resting, sliding), a hysteresis, a "
+            "smooth characteristic, or noevent(...) around the condition where the solver may step over it."
+        )
+
+
+def run_hybrid(
+    iteration: EventIteration, start: Outcome, t0: float, t1: float, save: Floats, integrate: Integrate,
+    *, first_step: float, max_steps: int, at_event: Callable[[float, Segment, Outcome, list[int]], None] | None = None,
+) -> HybridRun:  # fmt: skip
+    """Integrate from event to event.
+
+    Args:
+        iteration: carries the events out.
+        start: consistent start, with the slots.
+        t0, t1: start and end time [s].
+        save: output times.
+        integrate: integrates to the next event at most.
+        first_step: first step [s]; 0 to estimate one.
+        max_steps: most steps.
+        at_event: told the time, the segment before, what followed, and the samples that were due.
+
+    Raises:
+        SimulationError: events chatter or accumulate, an assertion fails, an event has no consistent outcome.
+    """
+    hybrid = iteration.hybrid
+    slots = hybrid.flat.slots
+    if t1 < t0:
+        raise SimulationError("A model with events runs forward in time only: t1 is before t0.")
+    record = _Record(hybrid, t1 - t0)
+    t, z, p, step, saved, code = t0, start.z, start.p, first_step, 0, 0
+    if start.changed:
+        record.event(t0, start.changed)
+    ended, z_end = start.ended, start.z
+    while ended is None:
+        sample_time, due = iteration.next_sample(t)
+        sampled = bool(sample_time <= t1)
+        stop = float(min(sample_time, t1))
+        segment = integrate(t, stop, z, p, save[saved:], step, sampled, max_steps - record.counts.get("steps", 0))
+        record.segment(segment, p)
+        saved += segment.saved
+        t, z_end, code = segment.t_end, segment.z_end, segment.code
+        if code not in (0, EVENT):
+            break
+        happened = code == EVENT
+        samples = due if sampled and t >= stop else []
+        if not happened and not samples:
+            break
+        outcome = iteration.event(t, z_end, p, segment.switched if happened else None, samples)
+        if at_event is not None:
+            at_event(t, segment, outcome, samples)
+        record.event(t, outcome.changed)
+        z, p, ended, step, code = outcome.z, outcome.p, outcome.ended, segment.step, 0
+        z_end = z
+    if slots.terminal >= 0 and ended is None and code == 0:
+        outcome = iteration.event(t, z_end, p, None, [slots.terminal])
+        p, z_end = outcome.p, outcome.z
+        if saved and save[saved - 1] == t:
+            record.z[-1] = np.concatenate([record.z[-1][:-1], z_end[None]])
+    found = np.concatenate(record.z) if record.z else np.zeros((0, len(start.z)))
+    modes = np.concatenate(record.slots) if record.slots else np.zeros((0, slots.count))
+    if ended is not None and (not saved or save[saved - 1] < t):  # the end itself is part of the result
+        found, modes = np.concatenate([found, z_end[None]]), np.concatenate([modes, p[None, hybrid.slots]])
+        save = np.concatenate([save[:saved], [t]])
+    else:
+        save = save[:saved]
+    counts = {name: record.counts.get(name, 0) for name in ("steps", "accepted", "rejected", "pivoted")}
+    return HybridRun(found, modes, record.events, code, t, z_end, p, counts, ended, save)
+
+
+def warn(message: str) -> None:
+    """Tell of an assertion of level ``warning``."""
+    warnings.warn(message, stacklevel=2)
