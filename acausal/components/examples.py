@@ -1,12 +1,13 @@
-"""What the examples in the docstrings of the components use: `run`, `close`, `unary`, `binary`.
+"""What the examples in the docstrings of the components use: `assemble`, `run`, `close`, `unary`, `binary`.
 
 ``from acausal.components.examples import *`` and the component's own package make an example run as it stands.
 """
 
 from __future__ import annotations
 
+import types
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -15,7 +16,27 @@ from acausal import Component, connect, start
 
 from . import blocks
 
-__all__ = ["Component", "ac", "binary", "close", "connect", "np", "run", "start", "unary"]
+__all__ = ["Component", "ac", "assemble", "binary", "close", "connect", "np", "run", "start", "unary"]
+
+
+def assemble(*connections: str, **parts: Component) -> Component:
+    """A model of `parts`, joined by connections such as ``"source.p - resistor.p - meter.p"``."""
+
+    def equations(self: Component) -> ac.Equations:
+        for text in connections:
+            first, second, *more = (_found(self, path) for path in text.split(" - "))
+            yield connect(first, second, *more)
+
+    body: dict[str, Any] = {**parts, "equations": equations, "__doc__": "An example.", "__module__": __name__}
+    made = types.new_class("Example", (Component,), exec_body=lambda names: names.update(body))
+    return cast("type[Component]", made)()
+
+
+def _found(model: Component, path: str) -> Any:
+    found: Any = model
+    for name in path.replace("[", ".").replace("]", "").split("."):
+        found = found[int(name)] if name.isdigit() else getattr(found, name)
+    return found
 
 
 class Values:
@@ -25,7 +46,9 @@ class Values:
         self.solution = solution
 
     def __getitem__(self, name: str) -> list[float]:
-        return [round(float(v), 7) + 0.0 for v in np.atleast_1d(self.solution[name])]
+        values = np.atleast_1d(np.asarray(self.solution[name], dtype=float))
+        scale = float(np.max(np.abs(values)))
+        return [0.0 if abs(v) < 1e-9 * scale else float(f"{v:.8g}") for v in values.tolist()]
 
 
 def run(model: Component, at: Sequence[float] | Any = (0.0, 1.0), rtol: float = 1e-9, **options: Any) -> Values:
@@ -43,26 +66,13 @@ def close(found: Any, wanted: Any, tolerance: float = 1e-5) -> bool:
 def unary(tested: blocks.SISO, value: float) -> float:
     """Output of a block for a constant input."""
 
-    class Model(Component):
-        source: blocks.Constant = blocks.Constant(k=value)
-        block: blocks.SISO = tested
-
-        def equations(self) -> ac.Equations:
-            yield connect(self.source.y, self.block.u)
-
-    return run(Model())["block.y"][-1]
+    model = assemble("source.y - block.u", source=blocks.Constant(k=value), block=tested)
+    return run(model)["block.y"][-1]
 
 
 def binary(tested: blocks.SI2SO, first: float, second: float) -> float:
     """Output of a block for two constant inputs."""
 
-    class Model(Component):
-        source1: blocks.Constant = blocks.Constant(k=first)
-        source2: blocks.Constant = blocks.Constant(k=second)
-        block: blocks.SI2SO = tested
-
-        def equations(self) -> ac.Equations:
-            yield connect(self.source1.y, self.block.u1)
-            yield connect(self.source2.y, self.block.u2)
-
-    return run(Model())["block.y"][-1]
+    sources = {"first": blocks.Constant(k=first), "second": blocks.Constant(k=second)}
+    model = assemble("first.y - block.u1", "second.y - block.u2", block=tested, **sources)
+    return run(model)["block.y"][-1]

@@ -82,7 +82,7 @@ class CurrentSources(Component):
         yield connect(
             self.ramp.n, self.constant.p, self.stepped.p, self.sine.p, self.signalled.p, self.resistor.n, self.ground.p
         )
-        yield connect(self.signal.y, self.signalled.u)
+        yield connect(self.signal.y, self.signalled.i)
         yield connect(self.resistance.y, self.resistor.R)
 
 
@@ -97,7 +97,7 @@ class Motor(Component):
     ground: electrical.Ground = electrical.Ground()
 
     def equations(self) -> Equations:
-        yield connect(self.signal.y, self.source.u)
+        yield connect(self.signal.y, self.source.v)
         yield connect(self.source.p, self.resistor.p)
         yield connect(self.resistor.n, self.emf.p)
         yield connect(self.emf.n, self.source.n, self.ground.p)

@@ -26,8 +26,8 @@ def test_rc_charges_exponentially() -> None:
 
 def test_rl_current_and_sensors() -> None:
     solution = simulated("Coil")
-    assert_allclose(solution["sensor.y"], 3 * (1 - np.exp(-T / 0.2)), atol=1e-6)
-    assert_allclose(solution["meter.y"], 12 * np.exp(-T / 0.2), atol=1e-5)
+    assert_allclose(solution["sensor.i"], 3 * (1 - np.exp(-T / 0.2)), atol=1e-6)
+    assert_allclose(solution["meter.v"], 12 * np.exp(-T / 0.2), atol=1e-5)
 
 
 def test_current_sources_add_up() -> None:

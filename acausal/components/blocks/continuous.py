@@ -47,9 +47,13 @@ class Integrator(SISO):
     y_start: Parameter = Parameter(0.0, doc="start value of the output")
     y: Output = Output(start=y_start, doc="output signal")
 
+    def rate(self) -> Expr:
+        """Derivative of the output."""
+        return self.k * self.u
+
     def equations(self) -> Equations:
         yield from super().equations()
-        yield der(self.y) == self.k * self.u
+        yield der(self.y) == self.rate()
 
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()
@@ -73,11 +77,11 @@ class LimIntegrator(Integrator):
     outMax: Parameter = Parameter(1.0, doc="upper limit of the output")
     outMin: Parameter = Parameter(-outMax, doc="lower limit of the output")
 
-    def equations(self) -> Equations:
+    def rate(self) -> Expr:
+        """Derivative of the output."""
         rate = self.k * self.u
         above, below = self.y > self.outMax, self.y < self.outMin
-        yield from SISO.equations(self)
-        yield der(self.y) == where((below & (rate < 0)) | (above & (rate > 0)), 0.0, rate)
+        return where((below & (rate < 0)) | (above & (rate > 0)), 0.0, rate)
 
 
 class Der(SISO):

@@ -204,7 +204,7 @@ class Power(SISO):
         yield self.y == self.base**self.u
 
 
-class RealExpression(Component):
+class RealExpression(SO):
     """A signal given by an equation of the model that has this block.
 
     >>> class Model(Component):
@@ -218,5 +218,3 @@ class RealExpression(Component):
 
     Source: Modelica.Blocks.Sources.RealExpression.
     """
-
-    y: Output = Output(doc="value of the expression")

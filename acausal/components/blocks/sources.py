@@ -189,10 +189,14 @@ class SineVariableFrequencyAndAmplitude(SO):
 class CosineVariableFrequencyAndAmplitude(SineVariableFrequencyAndAmplitude):
     """Cosine whose frequency and amplitude are signals, ``y = offset + amplitude cos(phi)``, ``dphi/dt = 2 pi f``.
 
-    >>> wave = CosineVariableFrequencyAndAmplitude(
-    ...     useConstantAmplitude=True, useConstantFrequency=True, constantAmplitude=2.0, constantFrequency=0.5)
-    >>> run(wave, at=[0.0, 1.0])["y"]
-    [2.0, -2.0]
+    >>> class Wave(Component):
+    ...     amplitude: Slope = Slope(slope=1.0, offset=2.0)
+    ...     cosine: CosineVariableFrequencyAndAmplitude = CosineVariableFrequencyAndAmplitude(
+    ...         useConstantFrequency=True, constantFrequency=0.5)
+    ...     def equations(self):
+    ...         yield connect(self.amplitude.y, self.cosine.amplitude)
+    >>> run(Wave(), at=[0.0, 1.0])["cosine.y"]
+    [2.0, -3.0]
 
     Source: Modelica.Blocks.Sources.CosineVariableFrequencyAndAmplitude.
     """

@@ -1,0 +1,301 @@
+"""Bipolar (Ebers-Moll) and MOS transistors."""
+
+from __future__ import annotations
+
+from acausal import Equations, Expr, Parameter, Variable, conditional, der, where
+from acausal import max as maximum
+from acausal import min as minimum
+
+from .interfaces import ConditionalHeatPort, Pin
+from .semiconductors import BOLTZMANN, CHARGE, exlin2, powlin
+
+
+class PartialBipolar(ConditionalHeatPort, partial=True):
+    """Bipolar transistor after Ebers and Moll, with Early effect, junction and diffusion capacitances.
+
+    Source: Modelica.Electrical.Analog.Semiconductors.NPN; Vlach and Singhal, Computer Methods for Circuit Analysis and
+    Design (1983), chapter 17.
+    """
+
+    polarity: int = 1
+    useTemperatureDependency: bool = False
+    useSubstrate: bool = False
+    C: Pin = Pin()
+    B: Pin = Pin()
+    E: Pin = Pin()
+    S: Pin = conditional(Pin(), "useSubstrate")
+    Bf: Parameter = Parameter(50.0, unit="1", doc="forward beta")
+    Br: Parameter = Parameter(0.1, unit="1", doc="reverse beta")
+    Is: Parameter = Parameter(1e-16, unit="A", doc="transport saturation current")
+    Vak: Parameter = Parameter(0.02, unit="1/V", doc="inverse Early voltage")
+    Tauf: Parameter = Parameter(0.12e-9, unit="s", doc="ideal forward transit time")
+    Taur: Parameter = Parameter(5e-9, unit="s", doc="ideal reverse transit time")
+    Ccs: Parameter = Parameter(1e-12, unit="F", doc="collector-substrate capacitance")
+    Cje: Parameter = Parameter(0.4e-12, unit="F", doc="base-emitter zero-bias depletion capacitance")
+    Cjc: Parameter = Parameter(0.5e-12, unit="F", doc="base-collector zero-bias depletion capacitance")
+    Phie: Parameter = Parameter(0.8, unit="V", doc="base-emitter diffusion voltage")
+    Me: Parameter = Parameter(0.4, unit="1", doc="base-emitter gradation exponent")
+    Phic: Parameter = Parameter(0.8, unit="V", doc="base-collector diffusion voltage")
+    Mc: Parameter = Parameter(0.333, unit="1", doc="base-collector gradation exponent")
+    Gbc: Parameter = Parameter(1e-15, unit="S", doc="base-collector conductance")
+    Gbe: Parameter = Parameter(1e-15, unit="S", doc="base-emitter conductance")
+    EMin: Parameter = Parameter(-100.0, unit="1", doc="below it the exponential is linear")
+    EMax: Parameter = Parameter(40.0, unit="1", doc="above it the exponential is linear")
+    Vt: Parameter = Parameter(0.02585, unit="V", doc="voltage equivalent of the temperature")
+    Tnom: Parameter = Parameter(300.15, unit="K", doc="temperature at which the parameters were measured")
+    XTI: Parameter = Parameter(3.0, unit="1", doc="temperature exponent of the saturation current")
+    XTB: Parameter = Parameter(0.0, unit="1", doc="temperature exponent of the betas")
+    EG: Parameter = Parameter(1.11, unit="V", doc="energy gap, over the elementary charge")
+    NF: Parameter = Parameter(1.0, unit="1", doc="forward emission coefficient")
+    NR: Parameter = Parameter(1.0, unit="1", doc="reverse emission coefficient")
+    k_q: Parameter = Parameter(BOLTZMANN / CHARGE, unit="V/K", doc="Boltzmann constant over the elementary charge")
+    ibc: Variable = Variable(unit="A", nominal=1e-3, doc="current of the base-collector diode")
+    ibe: Variable = Variable(unit="A", nominal=1e-3, doc="current of the base-emitter diode")
+    cbc: Variable = Variable(unit="F", nominal=1e-12, doc="capacitance between base and collector")
+    cbe: Variable = Variable(unit="F", nominal=1e-12, doc="capacitance between base and emitter")
+    qbk: Variable = Variable(unit="1", doc="inverse of the relative majority carrier charge")
+    iS: Variable = Variable(unit="A", nominal=1e-6, doc="current of the substrate")
+
+    def junctions(self, vbc: Expr, vbe: Expr) -> Equations:
+        """Equations for the forward voltages `vbc` and `vbe` of the junctions."""
+        s = self.polarity
+        ratio = self.T_heatPort / self.Tnom
+        saturation, beta_r, beta_f, thermal = self.Is * 1.0, self.Br * 1.0, self.Bf * 1.0, self.Vt * 1.0
+        if self.useTemperatureDependency:
+            thermal = self.k_q * self.T_heatPort
+            growth = exlin2((ratio - 1) * self.EG / thermal, self.EMin, self.EMax)
+            saturation = self.Is * ratio**self.XTI * growth
+            beta_r, beta_f = self.Br * ratio**self.XTB, self.Bf * ratio**self.XTB
+        over_c, over_e = self.NR * thermal, self.NF * thermal
+        exp_c, exp_e = exlin2(vbc / over_c, self.EMin, self.EMax), exlin2(vbe / over_e, self.EMin, self.EMax)
+        substrate = self.S.v if self.useSubstrate else 0.0
+        yield self.qbk == 1 - vbc * self.Vak
+        yield self.ibc == saturation * (exp_c - 1) + vbc * self.Gbc
+        yield self.ibe == saturation * (exp_e - 1) + vbe * self.Gbe
+        yield self.cbc == self.Taur * saturation / over_c * exp_c + self.Cjc * powlin(vbc / self.Phic, self.Mc)
+        yield self.cbe == self.Tauf * saturation / over_e * exp_e + self.Cje * powlin(vbe / self.Phie, self.Me)
+        yield self.iS == -self.Ccs * der(self.C.v - substrate)
+        charge_c, charge_e = self.cbc * der(vbc), self.cbe * der(vbe)
+        transport = (self.ibe - self.ibc) * self.qbk
+        yield self.C.i == s * (transport - self.ibc / beta_r - charge_c) - self.iS
+        yield self.B.i == s * (self.ibe / beta_f + self.ibc / beta_r + charge_c + charge_e)
+        yield self.C.i + self.B.i + self.E.i + self.iS == 0
+        if self.useSubstrate:
+            yield self.S.i == self.iS
+        yield self.LossPower == (
+            vbc * self.ibc / beta_r + vbe * self.ibe / beta_f + s * transport * (self.C.v - self.E.v)
+        )
+
+
+class NPN(PartialBipolar):
+    """NPN transistor after Ebers and Moll; junction voltages ``vbc = B.v - C.v``, ``vbe = B.v - E.v``.
+
+    ``C.i = (ibe - ibc) qbk - ibc/Br - cbc dvbc/dt - iS``, ``B.i = ibe/Bf + ibc/Br + cbc dvbc/dt + cbe dvbe/dt`` with
+    ``ibe = Is (exp(vbe/(NF Vt)) - 1) + Gbe vbe``, ``qbk = 1 - Vak vbc``, ``iS = -Ccs d(C.v)/dt``.
+
+    >>> model = assemble("drive.p - base.p", "base.n - tr.B", "supply.p - load.p", "load.n - tr.C",
+    ...                  "drive.n - supply.n - tr.E - ground.p", drive=ConstantVoltage(V=1.7), base=Resistor(R=1e5),
+    ...                  supply=ConstantVoltage(V=5.0), load=Resistor(R=1e3), tr=NPN(), ground=Ground())
+    >>> tr = run(model, at=[0.0, 1.0])
+    >>> ib, ic = tr["tr.B.i"][-1], tr["tr.C.i"][-1]
+    >>> close(ic / ib, 50.0 * (1 + 0.02 * (tr["tr.C.v"][-1] - tr["tr.B.v"][-1])), 1e-2)
+    True
+
+    Source: Modelica.Electrical.Analog.Semiconductors.NPN.
+    """
+
+    vbc: Variable = Variable(unit="V", doc="voltage from base to collector")
+    vbe: Variable = Variable(unit="V", doc="voltage from base to emitter")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.vbc == self.B.v - self.C.v
+        yield self.vbe == self.B.v - self.E.v
+        yield from self.junctions(self.vbc, self.vbe)
+
+
+class PNP(PartialBipolar):
+    """PNP transistor after Ebers and Moll; junction voltages ``vcb = C.v - B.v``, ``veb = E.v - B.v``.
+
+    The equations of `NPN` with these voltages, all currents in the other direction.
+
+    >>> model = assemble("drive.n - base.p", "base.n - tr.B", "supply.n - load.p", "load.n - tr.C",
+    ...                  "drive.p - supply.p - tr.E - ground.p", drive=ConstantVoltage(V=1.7), base=Resistor(R=1e5),
+    ...                  supply=ConstantVoltage(V=5.0), load=Resistor(R=1e3), tr=PNP(), ground=Ground())
+    >>> tr = run(model, at=[0.0, 1.0])
+    >>> ib, ic = tr["tr.B.i"][-1], tr["tr.C.i"][-1]
+    >>> ic < 0 and close(ic / ib, 50.0 * (1 + 0.02 * (tr["tr.B.v"][-1] - tr["tr.C.v"][-1])), 1e-2)
+    True
+
+    Source: Modelica.Electrical.Analog.Semiconductors.PNP.
+    """
+
+    polarity: int = -1
+    vcb: Variable = Variable(unit="V", doc="voltage from collector to base")
+    veb: Variable = Variable(unit="V", doc="voltage from emitter to base")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.vcb == self.C.v - self.B.v
+        yield self.veb == self.E.v - self.B.v
+        yield from self.junctions(self.vcb, self.veb)
+
+
+class HeatingNPN(NPN):
+    """NPN transistor whose currents follow the temperature of its heat port (see `NPN`).
+
+    >>> model = assemble("drive.p - base.p", "base.n - tr.B", "supply.p - tr.C", "tr.heatPort - hot.port",
+    ...                  "drive.n - supply.n - tr.E - ground.p", drive=ConstantVoltage(V=1.7), base=Resistor(R=1e5),
+    ...                  supply=ConstantVoltage(V=5.0), tr=HeatingNPN(), ground=Ground(),
+    ...                  hot=thermal.FixedTemperature(T=300.15))
+    >>> tr = run(model)
+    >>> close(tr["hot.port.Q_flow"][-1], tr["tr.LossPower"][-1])
+    True
+
+    Source: Modelica.Electrical.Analog.Semiconductors.HeatingNPN.
+    """
+
+    useHeatPort: bool = True
+    useTemperatureDependency: bool = True
+
+
+class HeatingPNP(PNP):
+    """PNP transistor whose currents follow the temperature of its heat port (see `PNP`).
+
+    >>> model = assemble("drive.n - base.p", "base.n - tr.B", "supply.n - tr.C", "tr.heatPort - hot.port",
+    ...                  "drive.p - supply.p - tr.E - ground.p", drive=ConstantVoltage(V=1.7), base=Resistor(R=1e5),
+    ...                  supply=ConstantVoltage(V=5.0), tr=HeatingPNP(), ground=Ground(),
+    ...                  hot=thermal.FixedTemperature(T=300.15))
+    >>> tr = run(model)
+    >>> close(tr["hot.port.Q_flow"][-1], tr["tr.LossPower"][-1])
+    True
+
+    Source: Modelica.Electrical.Analog.Semiconductors.HeatingPNP.
+    """
+
+    useHeatPort: bool = True
+    useTemperatureDependency: bool = True
+
+
+class PartialMOS(ConditionalHeatPort, partial=True):
+    """MOS transistor with drain, gate, source and bulk, without capacitances.
+
+    Source: Modelica.Electrical.Analog.Semiconductors.NMOS; Spiro, Simulation integrierter Schaltungen (1990).
+    """
+
+    useTemperatureDependency: bool = False
+    D: Pin = Pin()
+    G: Pin = Pin()
+    S: Pin = Pin()
+    B: Pin = Pin()
+    W: Parameter = Parameter(20e-6, unit="m", doc="width")
+    L: Parameter = Parameter(6e-6, unit="m", doc="length")
+    Beta: Parameter = Parameter(0.041e-3, unit="A/V2", doc="transconductance parameter")
+    Vt: Parameter = Parameter(0.8, unit="V", doc="threshold voltage at zero bias")
+    K2: Parameter = Parameter(1.144, unit="1", doc="bulk threshold parameter")
+    K5: Parameter = Parameter(0.7311, unit="1", doc="reduction of the pinch-off region")
+    dW: Parameter = Parameter(-2.5e-6, unit="m", doc="narrowing of the channel")
+    dL: Parameter = Parameter(-1.5e-6, unit="m", doc="shortening of the channel")
+    RDS: Parameter = Parameter(1e7, unit="ohm", doc="resistance between drain and source")
+    Tnom: Parameter = Parameter(300.15, unit="K", doc="temperature at which the parameters were measured")
+    kvt: Parameter = Parameter(-6.96e-3, unit="1/K", doc="temperature coefficient of Vt")
+    kk2: Parameter = Parameter(6e-4, unit="1/K", doc="temperature coefficient of K2")
+    id: Variable = Variable(unit="A", nominal=1e-3, doc="current of the channel from the higher to the lower side")
+
+    def channel(self, s: int) -> Equations:
+        """Equations of the channel; `s` is 1 for an n-channel and -1 for a p-channel: all voltages are mirrored."""
+        beta, threshold, k2 = self.Beta * 1.0, self.Vt * 1.0, self.K2 * 1.0
+        if self.useTemperatureDependency:
+            beta = self.Beta * (self.T_heatPort / self.Tnom) ** -1.5
+            threshold = self.Vt * (1 + (self.T_heatPort - self.Tnom) * self.kvt)
+            k2 = self.K2 * (1 + (self.T_heatPort - self.Tnom) * self.kk2)
+        d, g, source, bulk = s * self.D.v, s * self.G.v, s * self.S.v, s * self.B.v
+        gain = beta * (self.W + self.dW) / (self.L + self.dL)
+        low = minimum(d, source)
+        uds = maximum(d, source) - low
+        ugst = (g - low - s * threshold + k2 * minimum(bulk - low, 0.0)) * self.K5
+        effective = minimum(uds, maximum(ugst, 0.0))
+        yield self.id == gain * effective * (maximum(ugst, 0.0) - effective / 2) + uds / self.RDS
+        yield self.D.i == s * where(d < source, -self.id, self.id)
+        yield self.S.i == -self.D.i
+        yield self.G.i == 0
+        yield self.B.i == 0
+        yield self.LossPower == self.D.i * (self.D.v - self.S.v)
+
+
+class NMOS(PartialMOS):
+    """n-channel MOS transistor: ``id = v uds (ugst - uds/2)`` below pinch-off, ``v ugst^2/2`` beyond, plus ``uds/RDS``.
+
+    ``ugst = K5 (G.v - us - Vt + K2 min(B.v - us, 0))``, ``v = Beta (W + dW)/(L + dL)``, `us` the lower of the sides.
+
+    >>> model = assemble("drive.p - mos.G", "supply.p - mos.D", "drive.n - supply.n - mos.S - mos.B - ground.p",
+    ...                  drive=ConstantVoltage(V=3.0), supply=ConstantVoltage(V=5.0), mos=NMOS(), ground=Ground())
+    >>> v, ugst = 0.041e-3 * 17.5 / 4.5, 2.2 * 0.7311
+    >>> close(1e3 * run(model)["mos.D.i"][-1], 1e3 * (v * ugst**2 / 2 + 5.0 / 1e7), 1e-3)
+    True
+
+    Source: Modelica.Electrical.Analog.Semiconductors.NMOS.
+    """
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield from self.channel(1)
+
+
+class PMOS(PartialMOS):
+    """p-channel MOS transistor: the equations of `NMOS` with all voltages and currents in the other direction.
+
+    >>> model = assemble("drive.n - mos.G", "supply.n - mos.D", "drive.p - supply.p - mos.S - mos.B - ground.p",
+    ...                  drive=ConstantVoltage(V=3.0), supply=ConstantVoltage(V=5.0), mos=PMOS(), ground=Ground())
+    >>> v, ugst = 0.0105e-3 * 17.5 / 3.9, 2.0 * 0.839
+    >>> close(1e3 * run(model)["mos.D.i"][-1], -1e3 * (v * ugst**2 / 2 + 5.0 / 1e7), 1e-3)
+    True
+
+    Source: Modelica.Electrical.Analog.Semiconductors.PMOS.
+    """
+
+    Beta: Parameter = Parameter(0.0105e-3, unit="A/V2", doc="transconductance parameter")
+    Vt: Parameter = Parameter(-1.0, unit="V", doc="threshold voltage at zero bias")
+    K2: Parameter = Parameter(0.41, unit="1", doc="bulk threshold parameter")
+    K5: Parameter = Parameter(0.839, unit="1", doc="reduction of the pinch-off region")
+    dL: Parameter = Parameter(-2.1e-6, unit="m", doc="shortening of the channel")
+    kvt: Parameter = Parameter(-2.9e-3, unit="1/K", doc="temperature coefficient of Vt")
+    kk2: Parameter = Parameter(6.2e-4, unit="1/K", doc="temperature coefficient of K2")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield from self.channel(-1)
+
+
+class HeatingNMOS(NMOS):
+    """n-channel MOS transistor whose currents follow the temperature of its heat port (see `NMOS`).
+
+    >>> model = assemble("drive.p - mos.G", "supply.p - mos.D", "drive.n - supply.n - mos.S - mos.B - ground.p",
+    ...                  "mos.heatPort - hot.port", drive=ConstantVoltage(V=3.0), supply=ConstantVoltage(V=5.0),
+    ...                  mos=HeatingNMOS(), ground=Ground(), hot=thermal.FixedTemperature(T=300.15))
+    >>> mos = run(model)
+    >>> close(mos["hot.port.Q_flow"][-1], mos["mos.D.i"][-1] * 5.0)
+    True
+
+    Source: Modelica.Electrical.Analog.Semiconductors.HeatingNMOS.
+    """
+
+    useHeatPort: bool = True
+    useTemperatureDependency: bool = True
+
+
+class HeatingPMOS(PMOS):
+    """p-channel MOS transistor whose currents follow the temperature of its heat port (see `PMOS`).
+
+    >>> model = assemble("drive.n - mos.G", "supply.n - mos.D", "drive.p - supply.p - mos.S - mos.B - ground.p",
+    ...                  "mos.heatPort - hot.port", drive=ConstantVoltage(V=3.0), supply=ConstantVoltage(V=5.0),
+    ...                  mos=HeatingPMOS(), ground=Ground(), hot=thermal.FixedTemperature(T=300.15))
+    >>> mos = run(model)
+    >>> close(mos["hot.port.Q_flow"][-1], -mos["mos.D.i"][-1] * 5.0)
+    True
+
+    Source: Modelica.Electrical.Analog.Semiconductors.HeatingPMOS.
+    """
+
+    useHeatPort: bool = True
+    useTemperatureDependency: bool = True
