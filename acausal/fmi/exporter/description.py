@@ -127,8 +127,7 @@ def _fmi2(d: Description) -> Element:
             parent = SubElement(structure, tag)
             for reference, knowns in sorted(rows, key=lambda row: position[row[0]] if tag == "InitialUnknowns" else 0):
                 unknown = SubElement(parent, "Unknown", index=str(position[reference]))
-                if knowns is not None:
-                    unknown.set("dependencies", " ".join(str(i) for i in sorted(position[k] for k in knowns)))
+                unknown.set("dependencies", " ".join(str(i) for i in sorted(position[k] for k in knowns)))
     return root
 
 
@@ -169,27 +168,34 @@ def _fmi3(d: Description) -> Element:
     tags = {"Outputs": "Output", "Derivatives": "ContinuousStateDerivative", "InitialUnknowns": "InitialUnknown"}
     for tag, rows in _structure(d).items():
         for reference, knowns in rows:
-            unknown = SubElement(structure, tags[tag], valueReference=str(reference))
-            if knowns is not None:
-                unknown.set("dependencies", " ".join(str(k) for k in knowns))
+            text = " ".join(str(k) for k in knowns)
+            SubElement(structure, tags[tag], valueReference=str(reference), dependencies=text)
     return root
 
 
-def _structure(d: Description) -> dict[str, list[tuple[int, list[int] | None]]]:
+def _structure(d: Description) -> dict[str, list[tuple[int, list[int]]]]:
     """Value references of outputs, derivatives and initial unknowns, with those of what they depend on."""
     outputs = [k for k, v in enumerate(d.table) if v.causality == "output"]
     slopes = [k for k, v in enumerate(d.table) if v.place is Place.DERIVATIVE]
     states = [k for v in d.table if (k := v.derivative_of) is not None]
     inputs = [k for k, v in enumerate(d.table) if v.place is Place.INPUT]
     time = next(k for k, v in enumerate(d.table) if v.place is Place.TIME)
-    knowns = [*states, *inputs, time]
+    parameters = [k for k, v in enumerate(d.table) if v.place in (Place.PARAMETER, Place.CALCULATED)]
+    knowns = [*states, *inputs, time, *parameters]
+
+    def number(v: FmuVariable) -> int:
+        return d.dependence.slopes[v.index] if v.place is Place.DERIVATIVE else v.index
 
     def depends(k: int) -> list[int]:
         v = d.table[k]
+        return [] if v.place is Place.ZERO else sorted(knowns[i] for i in d.dependence.of(number(v)))
+
+    def depends_at_start(k: int) -> list[int]:
+        v = d.table[k]
         if v.place is Place.ZERO:
             return []
-        number = d.dependence.slopes[v.index] if v.place is Place.DERIVATIVE else v.index
-        return sorted(knowns[i] for i in d.dependence.of(number))
+        bits = d.dependence.parameters[v.index] if v.place is Place.CALCULATED else d.dependence.variables[number(v)]
+        return sorted(knowns[i] for i in d.dependence.at_start(bits))
 
     initial = [
         k for k, v in enumerate(d.table)
@@ -198,7 +204,7 @@ def _structure(d: Description) -> dict[str, list[tuple[int, list[int] | None]]]:
     ]  # fmt: skip
     return {
         "Outputs": [(k, depends(k)) for k in outputs], "Derivatives": [(k, depends(k)) for k in slopes],
-        "InitialUnknowns": [(k, None) for k in initial],
+        "InitialUnknowns": [(k, depends_at_start(k)) for k in initial],
     }  # fmt: skip
 
 

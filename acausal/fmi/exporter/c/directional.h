@@ -8,6 +8,7 @@ static int fmu_seed(fmu_instance *f, unsigned reference, double change, double *
     const int slot = starting ? fmu_start[reference] : fmu_state_number[reference];
     if (kind == FMU_PARAMETER || kind == FMU_INPUT) f->dp[i][0] += change;
     else if (kind == FMU_TIME && !starting) *dt += change;
+    else if (kind == FMU_VARIABLE && slot >= AC_N) f->d_wanted[slot - AC_N] += fmu_sign[reference] * change;
     else if (kind == FMU_VARIABLE && slot >= 0 && slot < AC_NX) f->dz[slot][0] += fmu_sign[reference] * change;
     else {
         fmu_say(f, FMU_ERROR, "the variable with value reference %u is not a known quantity in this mode", reference);
@@ -33,8 +34,10 @@ static void fmu_start_along(fmu_instance *f) {
     ac_residuals(w, a, &given, f->s.z);
     ac_scaled_rows(a, &given);
     ac_conditions_tangent(&w->m, f->s.t, f->s.z, f->dz, dg);
-    for (int k = 0; k < FMU_WANTED; k++)
+    for (int k = 0; k < FMU_WANTED; k++) {
+        dg[AC_FIRST_WANTED + k][0] -= f->d_wanted[k];
         if (!f->s.start_set[AC_N + k]) dg[AC_FIRST_WANTED + k] -= fmu_start_sign[AC_N + k] * ds[fmu_start_source[AC_N + k]];
+    }
     for (int i = 0; i < AC_NI; i++) {
         a->rhs[i] = -dg[i][0] / a->size[i];
         for (int j = 0; j < AC_N; j++) a->rows[i][j] /= a->size[i];
@@ -86,6 +89,7 @@ static double fmu_tangent_of(const fmu_instance *f, unsigned reference) {
 static void fmu_no_direction(fmu_instance *f) {
     memset(f->dp, 0, sizeof f->dp);
     memset(f->dz, 0, sizeof f->dz);
+    memset(f->d_wanted, 0, sizeof f->d_wanted);
 }
 
 static int fmu_directional(

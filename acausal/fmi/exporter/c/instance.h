@@ -61,6 +61,7 @@ struct fmu_instance {
     double starts[AC_NS + 1], wanted[FMU_WANTED + 1];
     ac_signal signals[AC_NU + 1];
     double signal_time[2], signal_value[AC_NU + 1][2];
+    double d_wanted[FMU_WANTED + 1];         /* directions of derivatives, and what follows from them */
     ac_vector dp[AC_NP + 1], dc[AC_NC + 1], dz[AC_N + 1], df[AC_N + 1], dall[AC_NALL + 1];
     ac_work work;
     ac_initial initial;
@@ -229,11 +230,11 @@ static int fmu_get(fmu_instance *f, size_t n, const unsigned *references, double
     return status;
 }
 
-/* Whether a variable may be set now. */
+/* Whether a variable may be set now. Importers also set single states in model exchange, as they set all of them. */
 static int fmu_settable(const fmu_instance *f, unsigned reference) {
     const int kind = fmu_kind[reference], mode = f->s.mode;
-    if (kind == FMU_INPUT) return (mode & (FMU_INSTANTIATED | FMU_INITIALIZATION | FMU_INITIALIZED)) != 0;
-    if (kind == FMU_PARAMETER) return (mode & (FMU_INSTANTIATED | FMU_INITIALIZATION | FMU_EVENT | FMU_STEP)) != 0;
+    if (kind == FMU_INPUT || kind == FMU_PARAMETER) return (mode & (FMU_INSTANTIATED | FMU_INITIALIZATION | FMU_INITIALIZED)) != 0;
+    if (mode & (FMU_EVENT | FMU_CONTINUOUS)) return fmu_state_number[reference] >= 0;
     return fmu_start[reference] >= 0 && (mode & (FMU_INSTANTIATED | FMU_INITIALIZATION));
 }
 
@@ -262,6 +263,8 @@ static int fmu_set(fmu_instance *f, size_t n, const unsigned *references, const 
             fmu_rebase(f);
             f->s.p[i] = values[k];
             f->s.du[i - AC_NPAR] = 0.0;
+        } else if (f->s.mode & (FMU_EVENT | FMU_CONTINUOUS)) {
+            f->s.z[fmu_state_number[reference]] = fmu_sign[reference] * values[k];
         } else {
             f->s.start[fmu_start[reference]] = fmu_sign[reference] * values[k];
             f->s.start_set[fmu_start[reference]] = 1;
