@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -86,6 +86,7 @@ class Hybrid:
     asserts: list[tuple[Piece, str, str]]
     ends: list[tuple[Piece, str]]
     roots: Roots
+    texts: dict[int, str] = field(default_factory=dict[int, str])
 
     @property
     def slots(self) -> slice:
@@ -94,6 +95,11 @@ class Hybrid:
 
     def text(self, slot: int) -> str:
         """What a slot is about, with component and source line."""
+        if slot not in self.texts:
+            self.texts[slot] = self._text(slot)
+        return self.texts[slot]
+
+    def _text(self, slot: int) -> str:
         flat = self.flat
         for family in flat.slots.pieces:
             rows = np.flatnonzero(family.par_rows[:, family.residual.args[0].value] == slot)

@@ -36,12 +36,13 @@ class NumericRun:
 
     def __init__(
         self, lowered: Lowered, t: float, x: Floats, w: Floats, p: Floats, free: Ints, directions: Any = None,
-        p_directions: Any = None,
+        p_directions: Any = None, t_direction: Any = None,
     ) -> None:  # fmt: skip
         """Derivatives with respect to the states `free` and all of w, or along the columns of `directions` of z.
 
-        With `p_directions` (n_p, n_y) the parameters move too.
+        With `p_directions` (n_p, n_y) the parameters move too, with `t_direction` (n_y,) time.
         """
+        self.t_direction = t_direction
         self.p_directions = p_directions
         self.lowered = lowered
         self.t = t
@@ -70,7 +71,7 @@ class NumericRun:
 
     def _group(self, group: Group) -> list[Dual]:
         kernel, rows = group.kernel, group.var_rows
-        leaf = self._leaf(rows, group.par_rows)
+        leaf = self.leaf(rows, group.par_rows)
         if kernel.matrix:
             self._linear(group, leaf)
         for u, expression in kernel.steps:
@@ -86,10 +87,12 @@ class NumericRun:
         gradient = np.stack([np.broadcast_to(zero if g is None else g, zero.shape) for _, g in parts], axis=1)
         return [(value, gradient.reshape(n * k, self.n_y))]
 
-    def _leaf(self, rows: Ints, par_rows: Ints) -> Callable[[Expr], Dual]:
+    def leaf(self, rows: Ints, par_rows: Ints) -> Callable[[Expr], Dual]:
+        """Values and gradients of the variables and parameters of some rows."""
+
         def leaf(node: Expr) -> Dual:
             if node.op == "time":
-                return self.t, None
+                return self.t, self.t_direction
             if node.op == "par":
                 moved = None if self.p_directions is None else self.p_directions[par_rows[:, node.value]]
                 return self.p[par_rows[:, node.value]], moved
@@ -119,7 +122,7 @@ class NumericRun:
         values, gradients = [np.zeros(0)], [np.zeros((0, self.n_y))]
         with np.errstate(all="ignore"):
             for family in families:
-                value, gradient = evaluate_dual((family.residual,), self._leaf(family.var_rows, family.par_rows))[0]
+                value, gradient = evaluate_dual((family.residual,), self.leaf(family.var_rows, family.par_rows))[0]
                 shape = (family.size, self.n_y)
                 values.append(np.broadcast_to(np.asarray(value, float), (family.size,)))
                 gradients.append(np.zeros(shape) if gradient is None else np.broadcast_to(gradient, shape))

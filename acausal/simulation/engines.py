@@ -69,8 +69,6 @@ def system_to_run(system: Any, options: Mapping[str, Any], engine: str) -> Any:
     if located.hybrid is None:
         return system
     reason = "engine='diffrax'" if engine == "diffrax" else why_not_native(located, options)
-    if reason is None and not is_concrete([v for v in options.values() if not isinstance(v, str)]):
-        reason = "derivatives"
     if reason is None:
         return located
     if system.hybrid is not None:

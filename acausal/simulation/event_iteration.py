@@ -43,6 +43,25 @@ class Equations(Protocol):
 
 
 @dataclass(slots=True, eq=False)
+class Move:
+    """One turn of an event, as its derivatives need it.
+
+    Attributes:
+        t, z, p: a solution of the equations; z before anything is reinitialized.
+        reinits: for each of `Hybrid.reinits` the rows that act.
+        z_after: with the new states.
+        free: states that may follow the new ones, or None if nothing has to.
+    """
+
+    t: float
+    z: Floats
+    p: Floats
+    reinits: list[Any]
+    z_after: Floats
+    free: Any = None
+
+
+@dataclass(slots=True, eq=False)
 class Outcome:
     """What an event has led to.
 
@@ -51,7 +70,6 @@ class Outcome:
         values: of all reduced variables there.
         ended: message of `terminate`, or None.
         changed: slots whose modes or triggers took part, for the record.
-        moves: what has been done to the states, in order: (trigger rows, ...) for derivatives.
     """
 
     z: Floats
@@ -78,6 +96,7 @@ class EventIteration:
         self.before: list[Any] = [np.zeros((len(t.forms), t.rows.size), bool) for t in hybrid.triggers]
         self.warned: set[str] = set()
         self.due: list[tuple[float, float, int]] = []
+        self.moves: list[Move] = []
 
     # ---- pieces -----------------------------------------------------------------------------------
     def _conditions(self, point: Point) -> list[Any]:
@@ -135,6 +154,7 @@ class EventIteration:
         p = p.copy()
         self.equations.feed(t, p)
         z = self._settled(t, z, p)
+        self.moves = [Move(t, z, p.copy(), [], z)]
         left = Point(t, self.equations.values(t, z, p), p)
         self._put_lefts(p, self._lefts(left))
         self._sample(p, samples or [], 1.0)
@@ -177,7 +197,7 @@ class EventIteration:
             self._check(point)
             if active:
                 ended = ended or self._ends(point)
-                z = self._reinitialized(t, z, p, point)
+            z = self._reinitialized(t, z, p, point)
             if not active and not self._put_lefts(p, self._lefts(point)):
                 self.before = now
                 return Outcome(z, p, values, ended, list(dict.fromkeys(seen)))
@@ -257,9 +277,12 @@ class EventIteration:
         """States with the values that `reinit` gives; those that depend on them follow by the least change."""
         low = self.problem.lowered
         wanted: dict[int, float] = {}
+        move = Move(t, z, p.copy(), [], z)
+        self.moves.append(move)
         for item in self.hybrid.reinits:
             trigger, value = item.piece.values(point)
-            for row in np.flatnonzero(trigger):
+            move.reinits.append(np.flatnonzero(trigger))
+            for row in move.reinits[-1]:
                 wanted[int(item.targets[row])] = float(item.signs[row] * value[row])
         if not wanted:
             return z
@@ -268,9 +291,11 @@ class EventIteration:
         z = z.copy()
         own = np.array([int(v) in position for v in ids])
         z[[position[int(v)] for v in ids[own]]] = values[own]
-        if own.all() and not low.n_g:
-            return z
-        return self._moved(t, z, p, ids, values, self._may_follow(ids))
+        if not own.all() or low.n_g:
+            move.free = self._may_follow(ids)
+            z = self._moved(t, z, p, ids, values, move.free)
+        move.z_after = z
+        return z
 
     def _may_follow(self, ids: Any) -> Any:
         """States of the same level: velocities may jump with velocities, but positions stay."""
@@ -375,13 +400,8 @@ class EventIteration:
         p[hybrid.slots] = 0.0
         if slots.initial >= 0:
             p[slots.initial] = 1.0
-        for piece in hybrid.pres:
-            form = piece.forms[0]
-            leaf = form.args[0] if form.op == "neg" else form
-            if leaf.op == "var":
-                ids = piece.rows.var_rows[:, leaf.value]
-                value = problem.start_sign[ids] * np.nan_to_num(starts[problem.start_source[ids]])
-                p[piece.slots] = -value if form.op == "neg" else value
+        for piece, ids, signs in left_starts(hybrid):
+            p[piece.slots] = signs * problem.start_sign[ids] * np.nan_to_num(starts[problem.start_source[ids]])
         self.schedule(t0, p)
         _, due = self.next_sample(t0, at=True)
         due = due if abs(_ - t0) <= 1e-9 * max(1.0, abs(t0)) else []
@@ -401,10 +421,10 @@ class EventIteration:
                 f"At the start the conditions and the equations contradict each other:\n{self._names(changed)}"
             )
         point = Point(t0, values, p)
+        self.moves = []
         seen = self._active(p)
         ended = self._ends(point) if seen else None
-        if seen:
-            z = self._reinitialized(t0, z, p, point)
+        z = self._reinitialized(t0, z, p, point)
         self._put_lefts(p, self._lefts(point))
         for piece in hybrid.triggers:
             p[piece.slots] = 0.0
@@ -413,9 +433,10 @@ class EventIteration:
         self.before = self._conditions(Point(t0, values, p))
         outcome = self._iterate(t0, z, p)
         if due:
+            earlier = self.moves
             again = self.event(t0, outcome.z, outcome.p, samples=due)
             again.changed = [*seen, *outcome.changed, *again.changed]
-            outcome = again
+            outcome, self.moves = again, [*earlier, *self.moves]
         outcome.ended = outcome.ended or ended
         return outcome, left
 
@@ -432,3 +453,15 @@ class EventIteration:
         for piece, a, b in zip(self.hybrid.triggers, now, rest, strict=True):
             changed += self._put(p, piece.slots, (a & ~b).any(axis=0).astype(float))
         return changed
+
+
+def left_starts(hybrid: Hybrid) -> list[tuple[Piece, Any, Any]]:
+    """Left limits of variables, which begin with start values: the piece, reduced variables, and signs."""
+    found: list[tuple[Piece, Any, Any]] = []
+    for piece in hybrid.pres:
+        form = piece.forms[0]
+        leaf = form.args[0] if form.op == "neg" else form
+        if leaf.op == "var":
+            signs = np.full(piece.rows.size, -1.0 if form.op == "neg" else 1.0)
+            found.append((piece, piece.rows.var_rows[:, leaf.value], signs))
+    return found

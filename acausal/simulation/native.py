@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -21,7 +21,8 @@ from acausal.lowering.initial_numeric import conditions_of, least_change, solve_
 from acausal.lowering.numeric import NumericRun
 from acausal.symbolic.traverse import postorder
 
-from .event_iteration import EventIteration, Outcome
+from .event_iteration import EventIteration, Move, Outcome, left_starts
+from .event_tangents import EventTangents
 from .hybrid_run import HybridRun, run_hybrid, warn
 from .native_build import build
 from .native_library import METHODS, Floats, NativeLibrary, Run, Signal
@@ -67,6 +68,7 @@ class Started:
     mask: Any
     iteration: EventIteration | None = None
     outcome: Outcome | None = None
+    moves: list[Move] = field(default_factory=list[Move])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -161,7 +163,7 @@ class NativeModel:
             system.check_initial(z0[: problem.lowered.n_x], z0[problem.lowered.n_x :], p, left, t0)
         else:
             check_parameters(program.flat, p)
-        return Started(z0, p, left, mask, iteration, outcome)
+        return Started(z0, p, left, mask, iteration, outcome, [] if iteration is None else iteration.moves)
 
     @property
     def large(self) -> bool:
@@ -213,26 +215,76 @@ class NativeModel:
     def sensitivities(
         self, t0: float, t1: float, save: Floats, given: Given, how: Tolerances, seeds: Sequence[Seed],
         check: bool = True,
-    ) -> tuple[Started, Run, Floats, Floats]:  # fmt: skip
-        """As `run`, with derivatives along `seeds`: of z (n_t, n, k) and of the parameters (n_p, k)."""
+    ) -> tuple[Started, Run | HybridRun, Floats, Floats]:  # fmt: skip
+        """As `run`, with derivatives along `seeds`: of z (n_t, n, k) and of the parameters (n_p, k).
+
+        In a run with events those of the slots follow those of z.
+        """
         width = next((w for w in WIDTHS if w >= len(seeds)), WIDTHS[-1])
         library = self.library(width)
         started = self.start(t0, given, library, check)
         slopes: list[Floats] = []
         p_slopes: list[Floats] = []
-        run: Run | None = None
+        run: Run | HybridRun | None = None
         for first in range(0, len(seeds), width):
-            dz0, dp = self._start_tangent(t0, given, started, library, seeds[first : first + width])
+            chosen = seeds[first : first + width]
+            if started.iteration is not None:
+                started = self.start(t0, given, library, check) if first else started
+                run, dz, dp = self._tangents_events(library, started, t0, t1, save, given, how, chosen)
+                slopes.append(dz[:, :, : len(chosen)])
+                p_slopes.append(dp[:, : len(chosen)])
+                continue
+            dz0, dp = self._start_tangent(t0, given, started, library, chosen)
             run = library.run(
                 t0, t1, started.z0, started.p, save, rtol=how.rtol, atol=how.atol, signals=given.signals,
                 first_step=how.first_step, max_steps=how.max_steps, tangents=(dz0, dp),
             )  # fmt: skip
-            count = len(seeds[first : first + width])
             assert run.dz is not None
-            slopes.append(run.dz[:, :, :count])
-            p_slopes.append(dp[:, :count])
+            slopes.append(run.dz[:, :, : len(chosen)])
+            p_slopes.append(dp[:, : len(chosen)])
         assert run is not None
         return started, run, np.concatenate(slopes, axis=2), np.concatenate(p_slopes, axis=1)
+
+    def _tangents_events(
+        self, library: NativeLibrary, started: Started, t0: float, t1: float, save: Floats, given: Given,
+        how: Tolerances, seeds: Sequence[Seed],
+    ) -> tuple[HybridRun, Floats, Floats]:  # fmt: skip
+        """A run with events and its derivatives: of z and the slots (n_t, n + n_slots, lanes), of p (n_p, lanes)."""
+        iteration, outcome = started.iteration, started.outcome
+        assert iteration is not None and outcome is not None
+        tangents = EventTangents(iteration, lambda t: np.array([_slope(s, t) for s in given.signals]))
+        first = replace(started, z0=started.moves[0].z, p=started.moves[0].p)
+        moving: list[Any] = [*tangents.start(started.moves, *self._start_tangent(t0, given, first, library, seeds))]
+        found: list[Floats] = []
+
+        def integrate(
+            t: float, stop: float, z: Floats, p: Floats, save: Floats, step: float, end_open: bool, steps: int
+        ) -> Run:
+            run = library.run(
+                t, stop, z, p, save, rtol=how.rtol, atol=how.atol, signals=given.signals, first_step=step,
+                max_steps=steps, method=METHODS.index(how.method), located=True, end_open=end_open,
+                tangents=(moving[0], moving[1]),
+            )  # fmt: skip
+            assert run.dz is not None
+            held = moving[1][iteration.hybrid.slots]
+            held = np.broadcast_to(held, (run.saved, *held.shape))
+            found.append(np.concatenate([run.dz[: run.saved], held], axis=1))
+            moving[0] = run.dz_end
+            return run
+
+        def at_event(t: float, segment: Any, after: Outcome, samples: list[int]) -> None:
+            roots = segment.switched if segment.code else None
+            moving[:] = tangents.event(iteration.moves, after.p, moving[0], moving[1], roots, samples)
+
+        run = run_hybrid(
+            iteration, outcome, t0, t1, save, integrate, first_step=how.first_step, max_steps=how.max_steps,
+            at_event=at_event,
+        )  # fmt: skip
+        dz = np.concatenate(found)
+        if len(dz) < len(run.z):  # the end itself, where `terminate` ended the run
+            last = np.concatenate([moving[0], moving[1][iteration.hybrid.slots]])
+            dz = np.concatenate([dz, last[None]])
+        return run, dz, moving[1]
 
     def _start_tangent(
         self, t0: float, given: Given, started: Started, library: NativeLibrary, seeds: Sequence[Seed]
@@ -250,6 +302,9 @@ class NativeModel:
                 first = program.flat.n_par if seed.kind == "input" else 0
                 dp[first + np.array(seed.indices), k] = 1.0
         d_starts, starts = self._starts_tangent(library, started, dp)
+        if system.hybrid is not None:
+            for piece, ids, signs in left_starts(system.hybrid):
+                dp[piece.slots] = (signs * problem.start_sign[ids])[:, None] * d_starts[problem.start_source[ids]]
         overrides = system._overrides(given.initial, np)
         given_at = given_starts(problem, starts, overrides, np)
         dz = np.zeros((library.n, lanes))
@@ -350,6 +405,15 @@ class Seed:
     kind: str
     indices: tuple[int, ...]
     signs: tuple[float, ...]
+
+
+def _slope(signal: Signal, t: float) -> float:
+    """Rate of an input."""
+    times, values = signal
+    if len(times) == 1 or not times[0] <= t < times[-1]:
+        return 0.0
+    k = int(np.searchsorted(times, t, side="right")) - 1
+    return float((values[k + 1] - values[k]) / (times[k + 1] - times[k]))
 
 
 def operations(lowered: Any) -> int:

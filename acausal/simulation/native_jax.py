@@ -22,6 +22,7 @@ from acausal.errors import AcausalError, SimulationError
 
 from .cache import ById
 from .engines import ATOL, INVARIANT_SAFETY, POINTS
+from .hybrid_run import HybridRun
 from .inputs import drive
 from .native import Given, NativeModel, Seed, Tolerances
 from .native_library import RESULTS
@@ -70,12 +71,13 @@ def simulate_traced(
         jnp.asarray(0.0 if dt is None else dt, float),
         tuple((jnp.asarray(t, float), jnp.asarray(v, float)) for t, v in signals if np.shape(t)[0] > 1),
     )  # fmt: skip
-    x, w, p, counts = _solve(spec, values, plain)
+    x, w, p, counts, slots = _solve(spec, values, plain)
+    slots = slots if model.system.hybrid is not None else None
     stats = {"steps": counts[0], "accepted": counts[1], "rejected": counts[2], "solver": "Rodas5P", "engine": "native"}
     if not inputs:
-        return Solution(model.system, save, x, w, p, stats=stats)
+        return Solution(model.system, save, x, w, p, stats=stats, slots=slots)
     lowered, numbers = drive(model.system, inputs)
-    return Solution(model.system, save, x, w, (p, numbers), stats=stats, lowered=lowered)
+    return Solution(model.system, save, x, w, (p, numbers), stats=stats, lowered=lowered, slots=slots)
 
 
 def _times(saveat: Any, t0: Any, t1: Any) -> Any:
@@ -91,7 +93,7 @@ def _times(saveat: Any, t0: Any, t1: Any) -> Any:
 
 @functools.partial(jax.custom_jvp, nondiff_argnums=(0,))
 def _solve(spec: _Spec, values: Any, plain: Any) -> Any:
-    """Trajectories x (n_t, n_x) and w (n_t, n_w), parameters (n_p,), and counts (3,)."""
+    """Trajectories x (n_t, n_x) and w (n_t, n_w), parameters (n_p,), counts (3,), and slots (n_t, n_slots)."""
     shapes = _shapes(spec, plain[2].shape[0])
     return jax.pure_callback(functools.partial(_host, spec, None), shapes, values, plain, vmap_method="broadcast_all")
 
@@ -106,15 +108,16 @@ def _jvp(spec: _Spec, primals: Any, tangents: Any) -> Any:
         )
     leaves = jax.tree.leaves(d_values, is_leaf=_is_zero)
     moving = tuple(k for k, d in enumerate(leaves) if not isinstance(d, SymbolicZero))
-    x, w, p, counts = shapes = _shapes(spec, plain[2].shape[0])
+    x, w, p, _, slots = shapes = _shapes(spec, plain[2].shape[0])
     k = sum(int(np.prod(leaves[i].shape)) for i in moving)
-    slopes = tuple(jax.ShapeDtypeStruct((*s.shape, k), s.dtype) for s in (x, w, p))
-    (x, w, p, counts), (dx, dw, dp) = jax.pure_callback(
+    slopes = tuple(jax.ShapeDtypeStruct((*s.shape, k), s.dtype) for s in (x, w, p, slots))
+    (x, w, p, counts, slots), (dx, dw, dp, ds) = jax.pure_callback(
         functools.partial(_host, spec, moving), (shapes, slopes), values, plain, vmap_method="broadcast_all"
     )
     direction = jnp.concatenate([jnp.ravel(leaves[i]) for i in moving] or [jnp.zeros(0)])
     still = np.zeros(counts.shape, jax.dtypes.float0)
-    return (x, w, p, counts), (dx @ direction, dw @ direction, dp @ direction, still)
+    slopes = dx @ direction, dw @ direction, dp @ direction, still, ds @ direction
+    return (x, w, p, counts, slots), slopes
 
 
 _solve.defjvp(_jvp, symbolic_zeros=True)  # pyright: ignore[reportUnknownMemberType]
@@ -127,9 +130,11 @@ def _is_zero(leaf: Any) -> bool:
 def _shapes(spec: _Spec, n_t: int) -> Any:
     low = spec.model.thing.system.lowered
     n_p = spec.model.thing.system.program.n_p
+    n_slots = spec.model.thing.system.stages.flat.slots.count
     return (
         jax.ShapeDtypeStruct((n_t, low.n_x), float), jax.ShapeDtypeStruct((n_t, low.n_w), float),
         jax.ShapeDtypeStruct((n_p,), float), jax.ShapeDtypeStruct((3,), int),
+        jax.ShapeDtypeStruct((n_t, n_slots), float),
     )  # fmt: skip
 
 
@@ -168,14 +173,12 @@ def _one(spec: _Spec, moving: tuple[int, ...] | None, values: Any, plain: Any) -
     )  # fmt: skip
     how = Tolerances(float(rtol), np.asarray(atol), float(dt), spec.max_steps)
     seeds = None if moving is None else _seeds(model, spec, values, moving)
-    dz = dp = None
     try:
         if seeds is None:
             started, run = model.run(float(t0), float(t1), save, given, how, check=spec.throw)
+            dz, dp = np.zeros((len(run.z), 0, 0)), np.zeros((n_p, 0))
         else:
             started, run, dz, dp = model.sensitivities(float(t0), float(t1), save, given, how, seeds, check=spec.throw)
-        z, p = run.z, started.p
-        counts = [run.counts[name] for name in ("steps", "accepted", "rejected")]
         if run.code and spec.throw:
             raise SimulationError(
                 f"The simulation stopped at t = {run.t_end:.9g} s of {float(t1):.9g} s: "
@@ -184,14 +187,30 @@ def _one(spec: _Spec, moving: tuple[int, ...] | None, values: Any, plain: Any) -
     except AcausalError:
         if spec.throw:
             raise
-        z, p, counts = np.full((len(save), low.n_x + low.n_w), np.nan), np.full(n_p, np.nan), [0, 0, 0]
-        dz = None
-    found = z[:, : low.n_x], z[:, low.n_x :], p, np.array(counts)
+        shapes = _all(spec, seeds, len(save))
+        return jax.tree.map(lambda s: np.full(s.shape, np.nan if s.dtype == float else 0, s.dtype), shapes)
+    counts = np.array([run.counts[name] for name in ("steps", "accepted", "rejected")])
+    n_x, n_z = low.n_x, low.n_x + low.n_w
+    slots = run.slots if isinstance(run, HybridRun) else np.zeros((len(run.z), 0))
+    z, slots, dz = (_to(len(save), a) for a in (run.z, slots, dz))
+    found = z[:, :n_x], z[:, n_x:], started.p, counts, slots
+    return found if seeds is None else (found, (dz[:, :n_x], dz[:, n_x:n_z], dp, dz[:, n_z:]))
+
+
+def _to(n_t: int, values: Any) -> Any:
+    """A trajectory that ended early stays where it is."""
+    if len(values) >= n_t or not len(values):
+        return values[:n_t] if len(values) else np.full((n_t, *values.shape[1:]), np.nan)
+    return np.concatenate([values, np.broadcast_to(values[-1], (n_t - len(values), *values.shape[1:]))])
+
+
+def _all(spec: _Spec, seeds: Any, n_t: int) -> Any:
+    """Shapes of what a solve returns."""
+    shapes = _shapes(spec, n_t)
     if seeds is None:
-        return found
-    if dz is None or dp is None:
-        dz, dp = np.full((*z.shape, len(seeds)), np.nan), np.full((n_p, len(seeds)), np.nan)
-    return found, (dz[:, : low.n_x], dz[:, low.n_x :], dp)
+        return shapes
+    x, w, p, _, slots = shapes
+    return shapes, tuple(jax.ShapeDtypeStruct((*s.shape, len(seeds)), float) for s in (x, w, p, slots))
 
 
 def _signals(spec: _Spec, constants: Sequence[Any], tables: Sequence[Any]) -> list[Any]:

@@ -40,7 +40,8 @@ class Solution:
         stats: counts (`steps`, `accepted`, `rejected`, `rhs`, `jacobians`), `compile_seconds`, `run_seconds`,
             `solver`, and where the solve ended: `t_end`.
         result: `"successful"`, or what ended the solve early.
-        events: the events that occurred, in order.
+        events: the events that occurred, in order (of a traced run they are not known).
+        slots: what changes at events, shape (n_t, n_slots), or None where there are no events.
     """
 
     def __init__(
@@ -55,6 +56,7 @@ class Solution:
         events: tuple[Any, ...] = (),
         lowered: Lowered | None = None,
         observe: Callable[[Any, Any], Any] | None = None,
+        slots: Any = None,
     ) -> None:
         self.system = system
         self.t, self.x, self.w, self.p = t, x, w, p
@@ -63,6 +65,7 @@ class Solution:
         self.events = events
         self.lowered: Lowered = system.lowered if lowered is None else lowered
         self._observe = observe
+        self.slots = slots
         self._all: Any = None
         register()
 
@@ -72,15 +75,17 @@ class Solution:
 
         numbers = {k: v for k, v in self.stats.items() if isinstance(v, jax.Array)}
         fixed = tuple((k, v) for k, v in self.stats.items() if k not in numbers and k not in _RUN_ONLY)
-        children = (self.t, self.x, self.w, self.p, numbers, self.events)
-        return children, (ById(self.system), fixed, self.result, ById(self.lowered), ById(self._observe))
+        children = (self.t, self.x, self.w, self.p, numbers, self.slots)
+        aux = ById(self.system), fixed, self.result, ById(self.lowered), ById(self._observe), ById(self.events)
+        return children, aux
 
     @classmethod
     def tree_unflatten(cls, aux: tuple[Any, ...], children: tuple[Any, ...]) -> Solution:
-        system, fixed, result, lowered, observe = aux
-        t, x, w, p, numbers, events = children
+        system, fixed, result, lowered, observe, events = aux
+        t, x, w, p, numbers, slots = children
         made = object.__new__(cls)
-        made.system, made.lowered, made.result, made.events = system.thing, lowered.thing, result, events
+        made.system, made.lowered, made.result, made.events = system.thing, lowered.thing, result, events.thing
+        made.slots = slots
         made.t, made.x, made.w, made.p = t, x, w, p
         made.stats = {**dict(fixed), **numbers}
         made._observe = observe.thing
@@ -157,7 +162,16 @@ class Solution:
         if not isinstance(self.lowered, (CompiledSystem, DrivenLowered)):
             return _observe(self.lowered, jnp.asarray(indices), self.t, self.x, self.w, self.p)
         observe = self.lowered.observe
-        values = jax.vmap(lambda t, x, w: observe(t, x, w, self.p, ids))(self.t, self.x, self.w)
+        if self.slots is None:
+            values = jax.vmap(lambda t, x, w: observe(t, x, w, self.p, ids))(self.t, self.x, self.w)
+        else:
+            held, p = self.system.hybrid.slots, self.p
+
+            def one(t: Any, x: Any, w: Any, slots: Any) -> Any:
+                with_slots = (p[0].at[held].set(slots), p[1]) if isinstance(p, tuple) else p.at[held].set(slots)
+                return observe(t, x, w, with_slots, ids)
+
+            values = jax.vmap(one)(self.t, self.x, self.w, self.slots)
         return jnp.reshape(values, (*values.shape[:1], *shape))
 
     @functools.cached_property
