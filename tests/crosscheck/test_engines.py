@@ -1,0 +1,94 @@
+"""Both engines on every model of the tests: the same trajectories to tolerance."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from benchmarks.models import chain, ladder
+from models.kbc import reference_crane
+from tests.components.examples import EXAMPLES
+from tests.native import models as small
+
+AGREE = 1e-5
+"""Largest deviation, relative to the size of the variable over the run."""
+LOOSE = {"slider_crank": 1e-4}
+"""Its accelerations are differences of forces that are far larger."""
+QUICK = {"CoupledMasses", "Friction", "simplified-rigid", "transistor_amplifier", "pendulum_index3"}
+"""Models of the tests that are not slow: compiling for JAX takes seconds each."""
+
+
+def ivp() -> ModuleType:
+    """The loader of the DAE test problems."""
+    path = Path(__file__).parents[1] / "reference" / "ivp" / "problems.py"
+    spec = spec_from_file_location("ivp_problems", path)
+    assert spec is not None and spec.loader is not None
+    module = module_from_spec(spec)
+    sys.modules.setdefault("ivp_problems", module)
+    spec.loader.exec_module(module)
+    return module
+
+
+def problem(name: str) -> Callable[[], tuple[ac.Component, float, float]]:
+    def make() -> tuple[ac.Component, float, float]:
+        problems = ivp()
+        found = problems.load(name)
+        return problems.component(found), found["t0"], found["t_end"]
+
+    return make
+
+
+def plain(model: Callable[[], ac.Component], t1: float) -> Callable[[], tuple[ac.Component, float, float]]:
+    return lambda: (model(), 0.0, t1)
+
+
+def cases() -> Iterator[tuple[str, Callable[[], tuple[ac.Component, float, float]]]]:
+    """Name of each model, and what makes it with its time span."""
+    for name, model in EXAMPLES.items():
+        yield name, plain(lambda model=model: model, 1.0)
+    for name in ivp().names():
+        yield name, problem(name)
+    for hydraulics in ("extended", "simplified"):
+        for joint in ("compliant", "rigid"):
+            for scenario in ("sine", "step", "endstop"):
+                label = f"{hydraulics}-{joint}" + ("" if scenario == "sine" else f"-{scenario}")
+                made: Any = (hydraulics, joint, scenario)
+                yield label, plain(lambda made=made: reference_crane(*made), 10.0)
+    for name in ("Decay", "Balanced", "Torn", "Free", "LinearBlock", "Pendulum"):
+        yield f"small-{name}", plain(getattr(small, name), 2.0)
+    yield "ladder", plain(lambda: ladder(300), 1.0)
+    yield "chain", plain(lambda: chain(300), 2.0)
+
+
+ATOL = {"robertson_dae": 1e-14, "e5": 1e-20}
+"""Absolute tolerances of those whose solution is far smaller than 1."""
+
+
+@pytest.mark.parametrize(
+    ("name", "make"), [pytest.param(n, m, id=n, marks=() if n in QUICK else pytest.mark.slow) for n, m in cases()]
+)
+def test_engines_agree(name: str, make: Callable[[], tuple[ac.Component, float, float]]) -> None:
+    model, t0, t1 = make()
+    system = ac.compile(model)
+    options: dict[str, Any] = {"t0": t0, "rtol": 1e-9, "atol": ATOL.get(name), "saveat": np.linspace(t0, t1, 41)}
+    if not system.states:
+        with pytest.raises(ac.SimulationError, match="no states"):
+            system.simulate(t1, engine="native", **options)
+        return
+    native, other = (system.simulate(t1, engine=engine, **options) for engine in ("native", "diffrax"))
+    assert native.stats["engine"] == "native"
+    worst = {}
+    for variable in (*system.states, *system.algebraics, *system.observed):
+        a, b = np.asarray(native[variable]), np.asarray(other[variable])
+        size = max(float(np.max(np.abs(b))), 1e-9)
+        worst[variable] = float(np.max(np.abs(a - b))) / size
+    far = {variable: error for variable, error in worst.items() if not error <= LOOSE.get(name, AGREE)}
+    assert not far
