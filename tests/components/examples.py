@@ -321,11 +321,11 @@ class Cooling(Component):
         yield connect(self.conductance.y, self.air.Gc)
         yield connect(self.day.y, self.weather.T)
         yield connect(
-            self.body.port, self.heater.port, self.sun.port, self.wall.port_a, self.air.port_a, self.sky.port_a
+            self.body.port, self.heater.port, self.sun.port, self.wall.port_a, self.air.solid, self.sky.port_a
         )
         yield connect(self.wall.port_b, self.meter.port_a)
         yield connect(self.meter.port_b, self.outside.port)
-        yield connect(self.air.port_b, self.sky.port_b, self.weather.port)
+        yield connect(self.air.fluid, self.sky.port_b, self.weather.port)
 
 
 class SignalChain(Component):
