@@ -13,7 +13,8 @@ import numpy as np
 
 from ..errors import SimulationError, UnknownNameError, nearest
 from ..language.template import Floats
-from .members import Job, Member, Progress, Result, pack, run_elsewhere, run_members
+from ..simulation.watch import Stop
+from .members import Job, Member, Progress, Result, pack, run_elsewhere, run_members, run_until
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -236,10 +237,12 @@ def _run(
         take(run_members(system, job, members[:1]))  # the first one compiles, for all threads
         rest = members[1:]
         pool = executor or ThreadPoolExecutor(workers)
+        stop = Stop()
         try:
             chunks = _chunks(rest, chunk, pool._max_workers)
-            _collect({pool.submit(run_members, system, job, part): part for part in chunks}, take)
+            _collect({pool.submit(run_until, stop, system, job, part): part for part in chunks}, take)
         finally:
+            stop.asked = True
             if executor is None:
                 pool.shutdown(cancel_futures=True)
     else:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 import warnings
 from collections.abc import Mapping, Sequence
+from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy as np
@@ -17,6 +18,7 @@ from .hybrid_run import HybridRun
 from .native import Given, NativeModel, Tolerances, native_model
 from .native_build import NoCompiler, compiler
 from .native_library import METHODS, RESULTS, Floats, Run, Signal
+from .watch import watch
 
 if TYPE_CHECKING:
     from .solution import Solution
@@ -153,7 +155,8 @@ def _native(
     compiled = time.perf_counter()
     how = tolerances(system, rtol, atol, dt, max_steps)
     how.method = solver
-    started, run = model.run(t0, t1, save, given, how, check=throw)
+    with watch.showing(t0, t1) if progress else nullcontext():
+        started, run = model.run(t0, t1, save, given, how, check=throw)
     seconds = compiled - begin, time.perf_counter() - compiled
     return finish(model, save, started.p, run, given.signals, seconds, t1, max_steps, method=solver, throw=throw)
 

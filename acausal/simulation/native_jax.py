@@ -27,6 +27,7 @@ from .inputs import drive
 from .native import Given, NativeModel, Seed, Tolerances
 from .native_library import RESULTS
 from .solution import Solution
+from .watch import Stop, watch
 
 
 @dataclass(frozen=True)
@@ -147,8 +148,17 @@ def _host(spec: _Spec, moving: tuple[int, ...] | None, values: Any, plain: Any) 
         return _one(spec, moving, values, plain)
     members = list(np.ndindex(batch))
     one = _picker(spec, moving, values, plain)
+    stop = Stop()
+
+    def until(member: tuple[int, ...]) -> Any:
+        with watch.stopping(stop):
+            return one(member)
+
     with ThreadPoolExecutor(max_workers=min(len(members), os.cpu_count() or 1)) as pool:
-        done = list(pool.map(one, members))
+        try:
+            done = list(pool.map(until, members))
+        finally:
+            stop.asked = True
     if not done:
         raise SimulationError("a batch of simulations is empty")
     return jax.tree.map(lambda *parts: np.stack(parts).reshape((*batch, *np.shape(parts[0]))), *done)

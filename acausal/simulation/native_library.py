@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from acausal.errors import AcausalError
 
+from .watch import CALLBACK, watch
+
 Floats = NDArray[np.float64]
 _P = POINTER(c_double)
 
@@ -23,6 +25,7 @@ RESULTS = (
     "successful", "max_steps_reached", "dt_min_reached", "singular", "out_of_memory", "stopped", "event_occurred",
 )  # fmt: skip
 """Names of the results of a run, by code; as diffrax calls them where it has them."""
+STOPPED = RESULTS.index("stopped")
 
 
 METHODS = ("rodas5p", "rk4", "adams")
@@ -41,7 +44,8 @@ class _Problem(ctypes.Structure):
         ("index", c_void_p), ("nominal", _P),
         ("n_save", c_long), ("save", _P), ("n_directions", c_int), ("dz0", _P), ("dp", _P), ("z_out", _P),
         ("dz_out", _P), ("z_end", _P), ("dz_end", _P), ("t_end", c_double), ("steps", c_long), ("accepted", c_long),
-        ("rejected", c_long), ("pivoted", c_long), ("saved", c_long), ("stop", c_void_p), ("located", c_int),
+        ("rejected", c_long), ("pivoted", c_long), ("saved", c_long), ("watch", CALLBACK),
+        ("watched", c_long), ("located", c_int),
         ("open", c_int), ("step", c_double), ("switched", POINTER(c_int)),
     )  # fmt: skip
 
@@ -173,6 +177,9 @@ class NativeLibrary:
             tangents: of z0 (n, lanes) and p (n_p, lanes).
             located: end at the first event.
             end_open: save nothing at t1.
+
+        Raises:
+            KeyboardInterrupt: the run was ended by Ctrl-C or a request to stop.
         """
         n_t = len(save)
         z, z_end = np.full((n_t, self.n), np.nan), np.empty(self.n)
@@ -195,7 +202,10 @@ class NativeLibrary:
             dz, dz_end = np.full((n_t, self.n, self.lanes), np.nan), np.empty((self.n, self.lanes))
             problem.n_directions = self.lanes
             problem.dz0, problem.dp, problem.dz_out, problem.dz_end = _of(dz0), _of(dp), _of(dz), _of(dz_end)
+        problem.watch = watch.callback
         code = int(self.library.acausal_run(byref(problem)))
+        if code == STOPPED:
+            raise KeyboardInterrupt
         return Run(z, dz, code, problem, z_end, dz_end, switched[: self.n_roots].astype(bool))
 
     def settle(self, p: Floats, signals: Sequence[Signal], t: float, z: Floats) -> bool:

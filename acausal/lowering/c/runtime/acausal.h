@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #ifndef AC_LANES
 #define AC_LANES 4 /* directions that one sweep of tangents carries */

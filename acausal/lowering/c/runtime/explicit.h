@@ -39,7 +39,7 @@ static int ac_fixed_steps(ac_problem *q, ac_work *w, ac_explicit_work *e) {
         memcpy(q->z_out + q->saved * AC_N, w->z, sizeof w->z);
     for (long n = 0; n < count; n++) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
-        if (q->stop && *q->stop) return AC_STOPPED;
+        if (ac_watched(q)) return AC_STOPPED;
         const double t = q->t_end, t1 = n + 1 == count ? q->t1 : q->t0 + direction * (n + 1) * q->first_step, h = t1 - t;
         memcpy(w->z1, w->z, sizeof w->z);
         memcpy(e->k[0], w->f, sizeof w->f);
@@ -127,7 +127,7 @@ static int ac_adams(ac_problem *q, ac_work *w, ac_explicit_work *e) {
         memcpy(q->z_out + q->saved * AC_N, w->z, sizeof w->z);
     while (direction * (q->t1 - q->t_end) > 0.0) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
-        if (q->stop && *q->stop) return AC_STOPPED;
+        if (ac_watched(q)) return AC_STOPPED;
         const double t = q->t_end, left = fabs(q->t1 - t), floor_ = ac_max(1e-14 * fabs(t), 1e-10 * q->smallest);
         const int last = h >= left * (1.0 - 1e-12);
         const double step = direction * (last ? left : h), t1 = last ? q->t1 : t + step;

@@ -28,12 +28,22 @@ typedef struct {
     double *z_end, *dz_end;        /* (n), (n, AC_LANES): the last accepted point */
     double t_end;
     long steps, accepted, rejected, pivoted, saved;
-    const volatile int *stop;      /* set from outside to end the run */
+    int (*watch)(double t);        /* called about once a second; not zero ends the run */
+    long watched;                  /* second of the last call */
     int located;                   /* events end the run */
     int open;                      /* nothing is saved at t1 */
     double step;                   /* to go on with after t_end */
     int *switched;                 /* (AC_NR) conditions that have switched at t_end */
 } ac_problem;
+
+/* Whether the run is to end. */
+static inline int ac_watched(ac_problem *q) {
+    if (!q->watch) return 0;
+    const long now = (long)time(NULL);
+    if (now == q->watched) return 0;
+    q->watched = now;
+    return q->watch(q->t_end);
+}
 
 #if AC_NG > 0
 typedef struct { /* of the normal equations of projection.h */
@@ -304,7 +314,7 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
 #endif
     while (direction * (q->t1 - t) > 0.0) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
-        if (q->stop && *q->stop) return AC_STOPPED;
+        if (ac_watched(q)) return AC_STOPPED;
         const double floor_ = ac_max(1e-14 * fabs(t), 1e-10 * q->smallest);
         if (!(h > floor_)) h = floor_;
         const int last = h >= fabs(q->t1 - t) * (1.0 - 1e-12);
@@ -423,6 +433,7 @@ AC_EXPORT int acausal_run(ac_problem *q) {
 #endif
     memcpy(w->z, q->z0, sizeof w->z);
     q->t_end = q->t0;
+    q->watched = (long)time(NULL);
     ac_constants(q->p, w->c);
 #ifdef AC_TANGENTS
     if (q->n_directions > 0) {

@@ -1,0 +1,50 @@
+"""A native run can be watched and interrupted."""
+
+from __future__ import annotations
+
+import _thread
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import acausal as ac
+
+from .models import Decay
+
+
+@pytest.fixture(scope="module")
+def system() -> ac.System:
+    return ac.compile(Decay())
+
+
+ENDLESS = {"solver": "rk4", "dt": 1e-9, "saveat": 2, "max_steps": 10**10}
+"""Ten thousand million steps."""
+
+
+def test_interrupt_ends_the_run(system: ac.System) -> None:
+    system.simulate(1e-6, **ENDLESS)
+    threading.Timer(0.2, _thread.interrupt_main).start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        system.simulate(10.0, **ENDLESS)
+    assert time.monotonic() - begin < 20.0
+    np.testing.assert_allclose(system.simulate(1.0, saveat=2)["x"][-1], 2 * np.exp(-0.7), rtol=1e-5)
+
+
+def test_interrupt_ends_an_ensemble(system: ac.System) -> None:
+    threading.Timer(0.5, _thread.interrupt_main).start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        system.ensemble({"k": [0.5, 0.6, 0.7, 0.8]}, 10.0, **ENDLESS)
+    assert time.monotonic() - begin < 20.0
+
+
+def test_progress(system: ac.System, capsys: pytest.CaptureFixture[str]) -> None:
+    system.simulate(1.0, progress=True)
+    assert not capsys.readouterr().err, "nothing in the first second"
+    threading.Timer(2.5, _thread.interrupt_main).start()
+    with pytest.raises(KeyboardInterrupt):
+        system.simulate(10.0, progress=True, **ENDLESS)
+    assert "% simulated, t = " in capsys.readouterr().err
