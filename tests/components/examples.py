@@ -173,11 +173,11 @@ class Driven(Component):
     """A spring drawn by a moving end, a damper drawn at constant speed."""
 
     motion: blocks.Sine = blocks.Sine(amplitude=0.1, f=0.5)
-    position: translational.Position = translational.Position()
+    position: translational.Position = translational.Position(exact=True)
     spring: translational.Spring = translational.Spring(c=100.0)
     mass: translational.PointMass = translational.PointMass(m=1.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True))
     rate: blocks.Constant = blocks.Constant(k=0.2)
-    speed: translational.Speed = translational.Speed(s=start(0.0, fixed=True))
+    speed: translational.Speed = translational.Speed(exact=True, s=start(0.0, fixed=True))
     damper: translational.Damper = translational.Damper(d=5.0)
 
     def equations(self) -> Equations:
@@ -206,8 +206,8 @@ class GearedRack(Component):
         yield connect(self.rotor.flange_b, self.gear.flange_a)
         yield connect(self.gear.flange_b, self.sensor.flange_a)
         yield connect(self.sensor.flange_b, self.wheel.flange_a)
-        yield connect(self.wheel.flange_b, self.rack.flange_r, self.angle.flange, self.speed.flange)
-        yield connect(self.rack.flange_t, self.mass.flange_a)
+        yield connect(self.wheel.flange_b, self.rack.flangeR, self.angle.flange, self.speed.flange)
+        yield connect(self.rack.flangeT, self.mass.flange_a)
 
 
 class Torsion(Component):
@@ -218,12 +218,12 @@ class Torsion(Component):
     right: rotational.Inertia = rotational.Inertia(J=2.0, phi=start(0.3, fixed=True), w=start(0.0, fixed=True))
     torque: rotational.Torque2 = rotational.Torque2()
     wave: blocks.Sine = blocks.Sine(amplitude=2.0, f=1.0)
-    turn: rotational.Position = rotational.Position()
+    turn: rotational.Position = rotational.Position(exact=True)
     ramp: blocks.Slope = blocks.Slope(slope=0.5)
     spring: rotational.Spring = rotational.Spring(c=20.0)
     flywheel: rotational.Inertia = rotational.Inertia(J=0.2, phi=start(0.0, fixed=True), w=start(0.0, fixed=True))
     brake: rotational.Damper = rotational.Damper(d=0.3)
-    spin: rotational.Speed = rotational.Speed(phi=start(0.0, fixed=True))
+    spin: rotational.Speed = rotational.Speed(exact=True, phi=start(0.0, fixed=True))
     rate: blocks.Constant = blocks.Constant(k=1.0)
 
     def equations(self) -> Equations:
@@ -242,9 +242,9 @@ class First(Component):
     """Drive train of Modelica.Mechanics.Rotational.Examples.First (Modelica Standard Library 4.0)."""
 
     sine: blocks.Sine = blocks.Sine(amplitude=10.0, f=5.0)
-    torque: rotational.Torque = rotational.Torque(use_support=True)
+    torque: rotational.Torque = rotational.Torque(useSupport=True)
     inertia1: rotational.Inertia = rotational.Inertia(J=0.1)
-    idealGear: rotational.IdealGear = rotational.IdealGear(ratio=10.0, use_support=True)
+    idealGear: rotational.IdealGear = rotational.IdealGear(ratio=10.0, useSupport=True)
     inertia2: rotational.Inertia = rotational.Inertia(J=2.0, phi=start(0.0, fixed=True), w=start(0.0, fixed=True))
     spring: rotational.Spring = rotational.Spring(c=1e4, phi_rel=start(0.0, fixed=True))
     inertia3: rotational.Inertia = rotational.Inertia(J=2.0, w=start(0.0, fixed=True))

@@ -25,7 +25,7 @@ def package_of(cls: type[Component]) -> str:
 
 CLASSES = [
     cls for cls in public_classes()
-    if package_of(cls) in ("blocks", "electrical", "thermal") and not issubclass(cls, Connector) and not is_partial(cls)
+    if package_of(cls) in PACKAGES and not issubclass(cls, Connector) and not is_partial(cls)
 ]  # fmt: skip
 
 

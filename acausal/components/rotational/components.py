@@ -1,0 +1,194 @@
+"""Inertia, rigid and compliant connections."""
+
+from __future__ import annotations
+
+import acausal as ac
+from acausal import Component, Equations, Parameter, Variable, der, where
+
+from .. import thermal
+from .interfaces import Flange, PartialCompliant, PartialCompliantWithRelativeStates, PartialTwoFlanges
+
+
+class Inertia(PartialTwoFlanges):
+    """Rotating inertia, ``w = dphi/dt``, ``a = dw/dt``, ``J a = flange_a.tau + flange_b.tau``.
+
+    >>> model = assemble("drive.flange - rotor.flange_a", drive=ConstantTorque(tau_constant=6.0),
+    ...                  rotor=Inertia(J=2.0, phi=start(0.0, fixed=True), w=start(1.0, fixed=True)))
+    >>> close(run(model, at=[0.5, 1.0])["rotor.phi"], [0.875, 2.5])
+    True
+
+    Source: Modelica.Mechanics.Rotational.Components.Inertia.
+    """
+
+    J: Parameter = Parameter(1.0, unit="kg*m2", min=0.0, doc="moment of inertia")
+    phi: Variable = Variable(unit="rad", doc="absolute angle")
+    w: Variable = Variable(unit="rad/s", doc="absolute angular velocity")
+    a: Variable = Variable(unit="rad/s2", doc="absolute angular acceleration")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.phi == self.flange_a.phi
+        yield self.phi == self.flange_b.phi
+        yield self.w == der(self.phi)
+        yield self.a == der(self.w)
+        yield self.J * self.a == self.flange_a.tau + self.flange_b.tau
+
+
+class Disc(PartialTwoFlanges):
+    """Two flanges turned against each other by `deltaPhi`, no inertia.
+
+    >>> model = assemble("wall.flange - disc.flange_a", wall=Fixed(phi0=0.25), disc=Disc(deltaPhi=0.5))
+    >>> run(model)["disc.flange_b.phi"][-1]
+    0.75
+
+    Source: Modelica.Mechanics.Rotational.Components.Disc.
+    """
+
+    deltaPhi: Parameter = Parameter(0.0, unit="rad", doc="angle of flange b against flange a")
+    phi: Variable = Variable(unit="rad", doc="absolute angle of the middle")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.flange_a.phi == self.phi - self.deltaPhi / 2
+        yield self.flange_b.phi == self.phi + self.deltaPhi / 2
+        yield self.flange_a.tau + self.flange_b.tau == 0
+
+
+class Fixed(Component):
+    """Flange fixed in the housing at `phi0`, ``flange.phi = phi0``.
+
+    >>> model = assemble("wall.flange - spring.flange_a", "spring.flange_b - drive.flange", wall=Fixed(phi0=0.25),
+    ...                  spring=Spring(c=4.0), drive=ConstantTorque(tau_constant=2.0))
+    >>> run(model)["drive.flange.phi"][-1]
+    0.75
+
+    Source: Modelica.Mechanics.Rotational.Components.Fixed.
+    """
+
+    flange: Flange = Flange()
+    phi0: Parameter = Parameter(0.0, unit="rad", doc="angle")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.flange.phi == self.phi0
+
+
+class Spring(PartialCompliant):
+    """Linear torsion spring, ``tau = c (phi_rel - phi_rel0)``.
+
+    >>> model = assemble("wall.flange - spring.flange_a", "spring.flange_b - rotor.flange_a", wall=Fixed(),
+    ...                  spring=Spring(c=8.0, phi_rel0=0.5),
+    ...                  rotor=Inertia(J=2.0, phi=start(1.0, fixed=True), w=start(0.0, fixed=True)))
+    >>> close(run(model, at=[0.5, 1.0])["rotor.phi"], 0.5 + 0.5 * np.cos([1.0, 2.0]))
+    True
+
+    Source: Modelica.Mechanics.Rotational.Components.Spring.
+    """
+
+    c: Parameter = Parameter(1e5, unit="N*m/rad", min=0.0, doc="spring constant")
+    phi_rel0: Parameter = Parameter(0.0, unit="rad", doc="unstretched angle")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.tau == self.c * (self.phi_rel - self.phi_rel0)
+
+
+class Damper(thermal.PartialConditionalHeatPort, PartialCompliantWithRelativeStates):
+    """Linear rotational damper, ``tau = d w_rel``; the power ``tau w_rel`` is lost.
+
+    >>> model = assemble("wall.flange - damper.flange_a", "damper.flange_b - rotor.flange_a", wall=Fixed(),
+    ...                  damper=Damper(d=4.0),
+    ...                  rotor=Inertia(J=2.0, phi=start(0.0, fixed=True), w=start(3.0, fixed=True)))
+    >>> close(run(model, at=[0.5, 1.0])["rotor.w"], 3 * np.exp([-1.0, -2.0]))
+    True
+
+    Source: Modelica.Mechanics.Rotational.Components.Damper.
+    """
+
+    d: Parameter = Parameter(1.0, unit="N*m*s/rad", min=0.0, doc="damping constant")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.tau == self.d * self.w_rel
+        yield self.lossPower == self.tau * self.w_rel
+
+
+class SpringDamper(thermal.PartialConditionalHeatPort, PartialCompliantWithRelativeStates):
+    """Linear torsion spring and damper in parallel, ``tau = c (phi_rel - phi_rel0) + d w_rel``.
+
+    >>> model = assemble("wall.flange - shaft.flange_a", "shaft.flange_b - rotor.flange_a", wall=Fixed(),
+    ...                  shaft=SpringDamper(c=8.0, d=8.0),
+    ...                  rotor=Inertia(J=2.0, phi=start(1.0, fixed=True), w=start(0.0, fixed=True)))
+    >>> close(run(model, at=[0.5, 1.0])["rotor.phi"], [2.0 * np.exp(-1.0), 3.0 * np.exp(-2.0)])
+    True
+
+    Source: Modelica.Mechanics.Rotational.Components.SpringDamper.
+    """
+
+    c: Parameter = Parameter(1e5, unit="N*m/rad", min=0.0, doc="spring constant")
+    d: Parameter = Parameter(1.0, unit="N*m*s/rad", min=0.0, doc="damping constant")
+    phi_rel0: Parameter = Parameter(0.0, unit="rad", doc="unstretched angle")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.tau == self.c * (self.phi_rel - self.phi_rel0) + self.d * self.w_rel
+        yield self.lossPower == self.d * self.w_rel * self.w_rel
+
+
+class ElastoBacklash(thermal.PartialConditionalHeatPort, PartialCompliantWithRelativeStates):
+    """Spring and damper with a backlash `b`: no torque within ``|phi_rel - phi_rel0| <= b/2``, never pulling.
+
+    Beyond it ``tau_c = c (phi_rel - phi_rel0 -+ b/2)`` and ``tau = tau_c + d w_rel``, where the damping is no larger
+    than the spring's torque and the sum has the sign of ``tau_c``.
+
+    >>> model = assemble("wall.flange - play.flange_a", "play.flange_b - rotor.flange_a", wall=Fixed(),
+    ...                  play=ElastoBacklash(c=np.pi**2 * 2.0, b=0.4),
+    ...                  rotor=Inertia(J=2.0, phi=start(0.0, fixed=True), w=start(1.0, fixed=True)))
+    >>> close(run(model, at=[0.1, 0.2, 0.7, 1.2])["rotor.phi"], [0.1, 0.2, 0.2 + 1 / np.pi, 0.2], 1e-4)
+    True
+
+    Source: Modelica.Mechanics.Rotational.Components.ElastoBacklash.
+    """
+
+    c: Parameter = Parameter(1e5, unit="N*m/rad", min=0.0, doc="spring constant")
+    d: Parameter = Parameter(0.0, unit="N*m*s/rad", min=0.0, doc="damping constant")
+    b: Parameter = Parameter(0.0, unit="rad", min=0.0, doc="total backlash")
+    phi_rel0: Parameter = Parameter(0.0, unit="rad", doc="unstretched angle")
+    tau_c: Variable = Variable(unit="N*m", doc="torque of the spring")
+    tau_d: Variable = Variable(unit="N*m", doc="torque of the damper")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        turned, half, spring = self.phi_rel - self.phi_rel0, self.b / 2, self.tau_c
+        damping = self.d * self.w_rel
+        above, below = turned > half, turned < -half
+        limited = where(above, ac.clip(damping, -spring, spring), where(below, ac.clip(damping, spring, -spring), 0.0))
+        yield spring == self.c * where(above, turned - half, where(below, turned + half, 0.0))
+        yield self.tau_d == where(self.b <= 1e-10, damping, ac.noevent(limited))
+        yield self.tau == spring + self.tau_d
+        yield self.lossPower == self.tau_d * self.w_rel
+
+
+class RelativeStates(PartialTwoFlanges):
+    """The relative angle and velocity of two flanges as states, ``phi_rel = flange_b.phi - flange_a.phi``; no torque.
+
+    >>> model = assemble("one.flange_a - relative.flange_a", "two.flange_a - relative.flange_b",
+    ...                  relative=RelativeStates(phi_rel=start(0.5, fixed=True), w_rel=start(1.0, fixed=True)),
+    ...                  one=Inertia(phi=start(0.0, fixed=True), w=start(2.0, fixed=True)), two=Inertia())
+    >>> close(run(model, at=[0.0, 1.0])["two.phi"], [0.5, 3.5])
+    True
+
+    Source: Modelica.Mechanics.Rotational.Components.RelativeStates.
+    """
+
+    phi_rel: Variable = Variable(unit="rad", start=0.0, state_select="prefer", doc="relative angle")
+    w_rel: Variable = Variable(unit="rad/s", start=0.0, state_select="prefer", doc="relative angular velocity")
+    a_rel: Variable = Variable(unit="rad/s2", doc="relative angular acceleration")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.phi_rel == self.flange_b.phi - self.flange_a.phi
+        yield self.w_rel == der(self.phi_rel)
+        yield self.a_rel == der(self.w_rel)
+        yield self.flange_a.tau == 0
+        yield self.flange_b.tau == 0

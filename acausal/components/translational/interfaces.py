@@ -1,0 +1,161 @@
+"""Flange and the bases of translational components."""
+
+from __future__ import annotations
+
+from acausal import (
+    Component,
+    Connector,
+    Equations,
+    Expr,
+    Flow,
+    Output,
+    Parameter,
+    Potential,
+    Variable,
+    conditional,
+    der,
+)
+
+
+class Flange(Connector):
+    """One-dimensional translational flange.
+
+    Source: Modelica.Mechanics.Translational.Interfaces.Flange_a.
+    """
+
+    s: Potential = Potential(unit="m", doc="absolute position")
+    f: Flow = Flow(unit="N", nominal=1e3, doc="cut force acting on the component")
+
+
+class PartialTwoFlanges(Component, partial=True):
+    """Two flanges, a and b.
+
+    Source: Modelica.Mechanics.Translational.Interfaces.PartialTwoFlanges.
+    """
+
+    flange_a: Flange = Flange()
+    flange_b: Flange = Flange()
+
+
+class PartialCompliant(PartialTwoFlanges, partial=True):
+    """Two flanges, no mass: ``s_rel = flange_b.s - flange_a.s``, ``f = flange_b.f = -flange_a.f``.
+
+    Source: Modelica.Mechanics.Translational.Interfaces.PartialCompliant.
+    """
+
+    s_rel: Variable = Variable(unit="m", doc="relative position, flange_b.s - flange_a.s")
+    f: Variable = Variable(unit="N", nominal=1e3, doc="force between the flanges, positive in tension")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.s_rel == self.flange_b.s - self.flange_a.s
+        yield self.flange_b.f == self.f
+        yield self.flange_a.f == -self.f
+
+
+class PartialCompliantWithRelativeStates(PartialCompliant, partial=True):
+    """Compliant element that needs the relative velocity, ``v_rel = d(flange_b.s)/dt - d(flange_a.s)/dt``.
+
+    Source: Modelica.Mechanics.Translational.Interfaces.PartialCompliantWithRelativeStates, with the derivatives taken
+    at the flanges, where they are derivatives of the states of the masses.
+    """
+
+    v_rel: Variable = Variable(unit="m/s", doc="relative velocity")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.v_rel == der(self.flange_b.s) - der(self.flange_a.s)
+
+
+PartialCompliantWithVelocity = PartialCompliantWithRelativeStates
+
+
+class PartialRigid(PartialTwoFlanges, partial=True):
+    """Two flanges rigidly joined at distance `L`: ``flange_a.s = s - L/2``, ``flange_b.s = s + L/2``.
+
+    Source: Modelica.Mechanics.Translational.Interfaces.PartialRigid.
+    """
+
+    L: Parameter = Parameter(0.0, unit="m", doc="length from flange a to flange b")
+    s: Variable = Variable(unit="m", doc="position of the centre")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.flange_a.s == self.s - self.L / 2
+        yield self.flange_b.s == self.s + self.L / 2
+
+
+class PartialSupport(Component, partial=True):
+    """A flange `support` for the reaction force with `useSupport`, otherwise the fixed housing.
+
+    Subclasses measure positions against `s_support` and yield ``supported(f)`` with the force of the support.
+
+    Source: Modelica.Mechanics.Translational.Interfaces.PartialElementaryOneFlangeAndSupport2.
+    """
+
+    useSupport: bool = False
+    support: Flange = conditional(Flange(), "useSupport")
+
+    @property
+    def s_support(self) -> Expr | float:
+        """Position of the support [m]."""
+        return self.support.s if self.useSupport else 0.0
+
+    def supported(self, reaction: Expr) -> Equations:
+        """Equations of the support, whose force is `reaction`."""
+        if self.useSupport:
+            yield self.support.f == reaction
+
+
+class PartialOneFlangeAndSupport(PartialSupport, partial=True):
+    """One flange and a support, ``s = flange.s - support.s``, ``support.f = -flange.f``.
+
+    Source: Modelica.Mechanics.Translational.Interfaces.PartialElementaryOneFlangeAndSupport2.
+    """
+
+    flange: Flange = Flange()
+    s: Variable = Variable(unit="m", doc="position of the flange relative to the support")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.s == self.flange.s - self.s_support
+        yield from self.supported(-self.flange.f)
+
+
+class PartialTwoFlangesAndSupport(PartialSupport, PartialTwoFlanges, partial=True):
+    """Two flanges and a support that takes the sum of their forces.
+
+    Source: Modelica.Mechanics.Translational.Interfaces.PartialElementaryTwoFlangesAndSupport2.
+    """
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield from self.supported(-self.flange_a.f - self.flange_b.f)
+
+
+class PartialAbsoluteSensor(Component, partial=True):
+    """Measurement at one flange; takes no force.
+
+    Source: Modelica.Mechanics.Translational.Interfaces.PartialAbsoluteSensor.
+    """
+
+    flange: Flange = Flange()
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.flange.f == 0
+
+
+class PartialRelativeSensor(PartialTwoFlanges, partial=True):
+    """Measurement between two flanges; takes no force.
+
+    Source: Modelica.Mechanics.Translational.Interfaces.PartialRelativeSensor.
+    """
+
+    s_rel: Output = Output(unit="m", doc="relative position, flange_b.s - flange_a.s")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.s_rel == self.flange_b.s - self.flange_a.s
+        yield self.flange_a.f == 0
+        yield self.flange_b.f == 0
