@@ -13,8 +13,8 @@ import numpy as np
 
 from ..errors import SimulationError, UnknownNameError, nearest
 from ..language.template import Floats
-from ..simulation.watch import Stop
-from .members import Job, Member, Progress, Result, pack, run_elsewhere, run_members, run_until
+from ..simulation.watch import Stop, watch
+from .members import Job, Member, Progress, Result, pack, run_elsewhere, run_members
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -238,9 +238,14 @@ def _run(
         rest = members[1:]
         pool = executor or ThreadPoolExecutor(workers)
         stop = Stop()
+
+        def until(part: list[Member]) -> list[Result]:
+            with watch.stopping(stop):
+                return run_members(system, job, part)
+
         try:
             chunks = _chunks(rest, chunk, pool._max_workers)
-            _collect({pool.submit(run_until, stop, system, job, part): part for part in chunks}, take)
+            _collect({pool.submit(until, part): part for part in chunks}, take)
         finally:
             stop.asked = True
             if executor is None:

@@ -17,7 +17,6 @@ import numpy as np
 
 from ..errors import AcausalError
 from ..language.template import Floats
-from ..simulation.watch import Stop, watch
 
 if TYPE_CHECKING:
     from ..system import System
@@ -78,12 +77,6 @@ def run_members(system: System, job: Job, members: Sequence[Member]) -> list[Res
         ]
         results.append(Result(member.index, np.asarray(solution.t), np.stack(kept, axis=1)))
     return results
-
-
-def run_until(stop: Stop, system: System, job: Job, members: Sequence[Member]) -> list[Result]:
-    """As `run_members`, until `stop` is asked to."""
-    with watch.stopping(stop):
-        return run_members(system, job, members)
 
 
 def _state_columns(system: System, names: Sequence[str]) -> list[tuple[int, float] | None]:
