@@ -10,6 +10,7 @@ import pytest
 import acausal as ac
 
 from .examples import First, Oscillator, TwoMasses
+from .msl import CauerLowPassAnalog, ElastoGap, PID_Controller
 
 DATA = Path(__file__).parents[1] / "reference" / "msl"
 
@@ -22,7 +23,10 @@ def read(name: str) -> tuple[list[str], np.ndarray]:
     return header, values[np.concatenate([[True], np.diff(values[:, 0]) > 0])]
 
 
-@pytest.mark.parametrize("model", [First(), Oscillator(), TwoMasses()], ids=lambda m: type(m).__name__)
+MODELS = [First(), Oscillator(), TwoMasses(), ElastoGap(), CauerLowPassAnalog(), PID_Controller()]
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda m: type(m).__name__)
 def test_within_the_tube(model: ac.Component) -> None:
     header, values = read(type(model).__name__)
     t = values[:, 0]
