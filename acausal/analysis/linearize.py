@@ -75,18 +75,18 @@ def linearize(
     low = system.lowered
     x0, w0, p = system.initialize(t, parameters)
     x = jnp.asarray(x0 if x is None else x, float)
-    n_u = len(system.input_names)
+    n_u, first = len(system.input_names), system.stages.flat.n_par
     names = tuple(outputs) or system.outputs
     ids = np.array([int(np.ravel(system.index_of(name))[0]) for name in names], np.int64)
     w_guess = jnp.asarray(w0)
 
     def both(x: Any, u: Any) -> tuple[Any, Any]:
-        q = jnp.asarray(p).at[low.n_p - n_u :].set(u) if n_u else jnp.asarray(p)
+        q = jnp.asarray(p).at[first : first + n_u].set(u) if n_u else jnp.asarray(p)
         w = low.solve_algebraic(t, x, w_guess, q)
         dx, _ = low.derivatives(t, x, w, q)
         return dx, low.observe(t, x, w, q, ids) if len(ids) else jnp.zeros(0)
 
-    u0 = jnp.asarray(p)[low.n_p - n_u :]
+    u0 = jnp.asarray(p)[first : first + n_u]
     (a, b), (c, d) = jax.jit(jax.jacfwd(both, argnums=(0, 1)))(x, u0)
     a, b, c, d = (np.asarray(m) for m in (a, b, c, d))
     return StateSpace(a, b, c, d, system.states, system.input_names, names, np.asarray(x))

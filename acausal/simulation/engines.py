@@ -49,6 +49,10 @@ def simulate(system: Any, t1: Any, *, engine: str = "auto", **options: Any) -> S
             return _native(system, t1, **{k: v for k, v in options.items() if v is not None})
         if engine == "native":
             raise SimulationError(f"The native engine cannot run this: {reason}. Take engine='diffrax' or 'auto'.")
+    if system.hybrid is not None:
+        from .hybrid_diffrax import simulate_events
+
+        return simulate_events(system, t1, **options)
     from .simulate import simulate as with_diffrax
 
     return with_diffrax(system, t1, engine="diffrax", **options)
@@ -70,12 +74,11 @@ def system_to_run(system: Any, options: Mapping[str, Any], engine: str) -> Any:
     located = system.located
     if located.hybrid is None:
         return system
-    reason = "engine='diffrax'" if engine == "diffrax" else why_not_native(located, options)
-    if reason is None:
+    if engine != "diffrax" and why_not_native(located, options) is None:
         return located
-    if system.hybrid is not None:
-        raise SimulationError(f"Events need the native engine, and it cannot run this: {reason}.")
-    return system
+    # without the native engine derivatives are those of the solver's steps over conditions, as with events=False
+    numbers = is_concrete([v for v in options.values() if not isinstance(v, str)])
+    return located if numbers or system.hybrid is not None else system
 
 
 def why_not_native(system: Any, options: Mapping[str, Any]) -> str | None:

@@ -97,6 +97,7 @@ class EventIteration:
         self.warned: set[str] = set()
         self.due: list[tuple[float, float, int]] = []
         self.moves: list[Move] = []
+        self.forced: list[int] = []
 
     # ---- pieces -----------------------------------------------------------------------------------
     def _conditions(self, point: Point) -> list[Any]:
@@ -108,6 +109,9 @@ class EventIteration:
         for piece, strict in zip(self.hybrid.relations, self.hybrid.strict, strict=True):
             g = piece.values(point)[0]
             new = ((g < 0.0) if strict else (g <= 0.0)).astype(float)
+            if self.forced:  # what was found to switch may still be on its old side by rounding
+                stays = np.isin(piece.slots, self.forced) & (np.abs(g) <= NOISE * self._scale(piece, point))
+                new[stays] = p[piece.slots[stays]]
             changed += self._put(p, piece.slots, new)
         for piece in self.hybrid.floors:
             changed += self._put(p, piece.slots, np.floor(piece.values(point)[0]))
@@ -160,6 +164,7 @@ class EventIteration:
         self._sample(p, samples or [], 1.0)
         changed = self._flip(p, left, roots)
         outcome = self._iterate(t, z, p)
+        self.forced = []
         if samples:
             self._sample(outcome.p, samples, 0.0)
             point = Point(t, outcome.values, outcome.p)
@@ -178,7 +183,7 @@ class EventIteration:
         slots = self.hybrid.roots.slots[roots]
         modes = np.unique(slots[slots >= 0])
         p[modes] = 1.0 - p[modes]
-        changed = modes.tolist()
+        self.forced = changed = modes.tolist()
         if (slots < 0).any():
             for piece in self.hybrid.floors:
                 changed += self._put(p, piece.slots, np.floor(piece.values(left)[0]))
@@ -286,6 +291,7 @@ class EventIteration:
                 wanted[int(item.targets[row])] = float(item.signs[row] * value[row])
         if not wanted:
             return z
+        self.forced = []
         ids, values = np.array(list(wanted), np.int64), np.array(list(wanted.values()))
         position = {int(v): i for i, v in enumerate(low.schedule.states.tolist())}
         z = z.copy()

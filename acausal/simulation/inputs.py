@@ -62,7 +62,8 @@ def drive(system: Any, inputs: Mapping[str, Any]) -> tuple[DrivenLowered, tuple[
     """The driven system for these inputs, and their numbers.
 
     Args:
-        system: offers `lowered` and `input_names`, the names of the last entries of the parameter vector in order.
+        system: offers `lowered` and `input_names`, the names of the last entries of the parameter vector in order
+            (before the slots of events, if it has a `hybrid`).
         inputs: name to a number; a pair (times, values) that is interpolated linearly and held beyond its ends; or a
             function of time written with `jax.numpy`.
 
@@ -72,6 +73,8 @@ def drive(system: Any, inputs: Mapping[str, Any]) -> tuple[DrivenLowered, tuple[
     """
     names = tuple(system.input_names)
     lowered = system.lowered
+    hybrid = getattr(system, "hybrid", None)
+    held = 0 if hybrid is None else hybrid.flat.slots.count
     places: list[int] = []
     signals: list[Callable[..., Any]] = []
     data: list[Any] = []
@@ -79,7 +82,7 @@ def drive(system: Any, inputs: Mapping[str, Any]) -> tuple[DrivenLowered, tuple[
         if name not in names:
             known = nearest(name, names) or f" Its inputs are: {', '.join(names) or 'none'}."
             raise UnknownNameError(f"The model has no input `{name}`.{known}")
-        places.append(names.index(name) - len(names))
+        places.append(names.index(name) - len(names) - held)
         signal, numbers = _signal(name, value)
         signals.append(signal)
         data.append(numbers)

@@ -118,7 +118,7 @@ def simulate(
     else:
         x0, w0, p, start_seconds = start(system, t0, parameters, initial, {}, check=throw)
     n_x, _, _ = dimensions(lowered)
-    method = _with_linear_solver(_solver(solver), lowered)
+    method = with_linear_solver(chosen_solver(solver), lowered)
     points, kind = _output(saveat, t0, t1)
     relative = jnp.asarray(rtol, float)
     absolute = jnp.broadcast_to(ATOL * relative if atol is None else jnp.asarray(atol, float), (n_x,))
@@ -130,30 +130,24 @@ def simulate(
         plain = not traced and isinstance(method, Rodas5P)
         adjoint = diffrax.ForwardMode() if plain else diffrax.RecursiveCheckpointAdjoint()
     method = _for_adjoint(method, adjoint)
-    settings = _Settings(
-        solver=method,
-        saveat=kind,
-        controller=stepsize_controller,
-        has_dt=dt is not None,
-        adjoint=adjoint,
+    settings = settings_of(
+        method, kind, controller=stepsize_controller, has_dt=dt is not None, adjoint=adjoint,
         event=None if isinstance(events, bool) or events is None else events,
         max_steps=MAX_STEPS if max_steps is None else max_steps,
-        progress=False,
-        throw=False,
-    )
+    )  # fmt: skip
     if traced:
         run, dynamic, _ = _program(lowered, settings.replace(throw=throw))
         t, x, w, counts, *_ = run(dynamic, *arguments)
         return Solution(system, t, x, w, p, stats={**_named(counts, method), "solver": _name(method)}, lowered=lowered)
 
-    (t, x, w, counts, code, last), compile_seconds, run_seconds = _carry_out(
+    (t, x, w, counts, code, last), compile_seconds, run_seconds = carry_out(
         lowered, settings.replace(progress=progress), arguments
     )
     t, x, w = (np.asarray(a) for a in (t, x, w))
     kept = np.isfinite(t)
     if not kept.all():
         t, x, w = t[kept], x[kept], w[kept]
-    result = _result_name(int(code))
+    result = result_name(int(code))
     stats = {k: int(v) for k, v in _named(counts, method).items()}
     stats |= {"compile_seconds": start_seconds + compile_seconds, "run_seconds": run_seconds}
     stats |= {"solver": _name(method), "t_end": float(last[0])}
@@ -163,7 +157,7 @@ def simulate(
     return solution
 
 
-def _carry_out(
+def carry_out(
     lowered: Lowered, settings: _Settings, arguments: tuple[Any, ...]
 ) -> tuple[tuple[Any, ...], float, float]:
     """Compiles and runs a solve: its outcome, the seconds of compiling and of running."""
@@ -209,6 +203,16 @@ class _Settings(eqx.Module):
 
     def replace(self, **changes: Any) -> _Settings:
         return _Settings(**{**{k: getattr(self, k) for k in self.__dataclass_fields__}, **changes})
+
+
+def settings_of(
+    solver: Any, saveat: Any, *, controller: Any, has_dt: bool, event: Any, max_steps: int, adjoint: Any = None
+) -> _Settings:
+    """Settings of a solve; without `adjoint` it is not differentiated."""
+    return _Settings(
+        solver=solver, saveat=saveat, controller=controller, has_dt=has_dt, event=event, max_steps=max_steps,
+        adjoint=diffrax.ForwardMode() if adjoint is None else adjoint, progress=False, throw=False,
+    )  # fmt: skip
 
 
 def _output(saveat: Any, t0: Any, t1: Any) -> tuple[Any, Any]:
@@ -374,7 +378,7 @@ def _keeps_factors(solver: Any) -> bool:
     return isinstance(linear, SparseKLU) and linear.keep_factors
 
 
-def _solver(given: diffrax.AbstractSolver[Any] | str | None) -> diffrax.AbstractSolver[Any]:
+def chosen_solver(given: diffrax.AbstractSolver[Any] | str | None) -> diffrax.AbstractSolver[Any]:
     """The solver that is meant."""
     if given is None or given == "rodas5p":
         return Rodas5P()
@@ -399,7 +403,7 @@ def _for_adjoint(solver: Any, adjoint: Any) -> Any:
     return eqx.tree_at(lambda s: s.scan_kind, solver, kinds[type(adjoint)], is_leaf=lambda v: v is None)
 
 
-def _with_linear_solver(solver: Any, lowered: Lowered) -> Any:
+def with_linear_solver(solver: Any, lowered: Lowered) -> Any:
     """The solver, and if it leaves that open, with the linear solver that suits the size."""
     if not isinstance(solver, Rodas5P) or solver.linear_solver is not None:
         return solver
@@ -441,6 +445,6 @@ def _code(result: diffrax.RESULTS) -> Array:
     return code
 
 
-def _result_name(code: int) -> str:
+def result_name(code: int) -> str:
     """Name of a diffrax result."""
     return _RESULTS[code] if code >= 0 else "solver_failed"

@@ -146,10 +146,14 @@ class Solution:
 
         if self._all is None and self._size <= KEEP_ALL:
             everything = jnp.arange(self._n_all)
-            self._all = np.asarray(_observe(self.lowered, everything, self.t, self.x, self.w, self.p))
+            self._all = np.asarray(self._at_all_times(everything))
         if self._all is not None:
             return self._all[:, indices]
-        return _observe(self.lowered, jnp.asarray(indices), self.t, self.x, self.w, self.p)
+        return self._at_all_times(jnp.asarray(indices))
+
+    def _at_all_times(self, indices: Any) -> Any:
+        held = None if self.slots is None else self.system.hybrid.slots
+        return _observe(self.lowered, indices, self.t, self.x, self.w, self.p, self.slots, held)
 
     def _traced_values(self, indices: Any) -> Any:
         """Only what these variables need is traced."""
@@ -160,7 +164,7 @@ class Solution:
         from .inputs import DrivenLowered
 
         if not isinstance(self.lowered, (CompiledSystem, DrivenLowered)):
-            return _observe(self.lowered, jnp.asarray(indices), self.t, self.x, self.w, self.p)
+            return self._at_all_times(jnp.asarray(indices))
         observe = self.lowered.observe
         if self.slots is None:
             values = jax.vmap(lambda t, x, w: observe(t, x, w, self.p, ids))(self.t, self.x, self.w)
@@ -168,8 +172,7 @@ class Solution:
             held, p = self.system.hybrid.slots, self.p
 
             def one(t: Any, x: Any, w: Any, slots: Any) -> Any:
-                with_slots = (p[0].at[held].set(slots), p[1]) if isinstance(p, tuple) else p.at[held].set(slots)
-                return observe(t, x, w, with_slots, ids)
+                return observe(t, x, w, _with_slots(p, held, slots), ids)
 
             values = jax.vmap(one)(self.t, self.x, self.w, self.slots)
         return jnp.reshape(values, (*values.shape[:1], *shape))
@@ -342,7 +345,14 @@ def _columns(names: tuple[str, ...]) -> dict[str, int]:
     return {name: column for column, name in enumerate(names)}
 
 
-def _observe(lowered: Lowered, indices: Any, t: Any, x: Any, w: Any, p: Any) -> Any:
+def _with_slots(p: Any, held: slice, slots: Any) -> Any:
+    """Parameters with the slots of events of one time."""
+    return (p[0].at[held].set(slots), p[1]) if isinstance(p, tuple) else p.at[held].set(slots)
+
+
+def _observe(
+    lowered: Lowered, indices: Any, t: Any, x: Any, w: Any, p: Any, slots: Any = None, held: slice | None = None
+) -> Any:
     """Variables at `indices` over all times, shape (n_t, *indices.shape), without keeping the others."""
     import jax
 
@@ -351,8 +361,12 @@ def _observe(lowered: Lowered, indices: Any, t: Any, x: Any, w: Any, p: Any) -> 
     cache = cache_of(lowered)
     if "observe" not in cache:
 
-        def values(indices: Any, t: Any, x: Any, w: Any, p: Any) -> Any:
-            return jax.lax.map(lambda at: lowered.observe(at[0], at[1], at[2], p)[indices], (t, x, w))
+        def values(indices: Any, t: Any, x: Any, w: Any, p: Any, slots: Any) -> Any:
+            def one(at: Any) -> Any:
+                now = p if held is None else _with_slots(p, held, at[3])
+                return lowered.observe(at[0], at[1], at[2], now)[indices]
+
+            return jax.lax.map(one, (t, x, w, slots))
 
         cache["observe"] = jit(values)
-    return cache["observe"](indices, t, x, w, p)
+    return cache["observe"](indices, t, x, w, p, slots)
