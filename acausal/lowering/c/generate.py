@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
@@ -22,7 +22,7 @@ from .tableau import tableau_lines
 from .text import NotInC, array, braces
 
 if TYPE_CHECKING:
-    from ...language.flat_model import Assignment
+    from ...language.flat_model import Assignment, Family
     from ..initial import InitialProblem
     from ..parameters import ParameterProgram
 
@@ -60,6 +60,7 @@ def to_c(
     labels: Callable[[int], str] | None = None,
     *,
     roots: Roots | None = None,
+    further: Mapping[str, Sequence[Family]] | None = None,
     loops: bool = False,
     observe_tangent: bool = False,
 ) -> CSource:
@@ -70,6 +71,8 @@ def to_c(
         problem: its initialization, with the lowered equations.
         labels: name of a variable by number, for comments.
         roots: functions whose change of sign is an event.
+        further: names of further functions, each with the expressions that it evaluates, for systems that are written
+            out.
         loops: write families as loops, for systems that are too large to be written out.
         observe_tangent: add the tangents of all variables, for systems that are written out.
 
@@ -81,7 +84,7 @@ def to_c(
             raise NotInC("a large model with retained constraints is left to the diffrax engine")
         text, tables = large_file(problem.lowered, program.flat.n_par, len(program.flat.inputs), roots)
         return CSource(text, runtime_files(), tables)
-    return CSource(_Small(program, problem, labels, roots).file(observe_tangent), runtime_files())
+    return CSource(_Small(program, problem, labels, roots, further).file(observe_tangent), runtime_files())
 
 
 class _Small:
@@ -89,7 +92,7 @@ class _Small:
 
     def __init__(
         self, program: ParameterProgram, problem: InitialProblem, labels: Callable[[int], str] | None,
-        roots: Roots | None,
+        roots: Roots | None, further: Mapping[str, Sequence[Family]] | None = None,
     ) -> None:  # fmt: skip
         self.roots = Roots([], np.zeros(0, np.int64), np.zeros(0, bool)) if roots is None else roots
         self.program, self.problem = program, problem
@@ -113,6 +116,7 @@ class _Small:
             block.differentiate(rows[: len(block.values)])
             rows = rows[len(block.values) :]
         self.switching = reduce_strength(family_residuals(s, self.roots.families))
+        self.further = {name: reduce_strength(family_residuals(s, f)) for name, f in (further or {}).items()}
         held = n_par + self.n_inputs
         self.hoisted = Hoisted(lambda leaf: leaf.value < n_par or held <= leaf.value < lowered.n_p)
         self.observed = reduce_strength(s.known.values())
@@ -220,11 +224,12 @@ class _Small:
         ]  # fmt: skip
         return braces(f"AC_UNUSED static void ac_observe_tangent({_AT}, {_DT}, ac_vector *dall)", body)
 
-    def switches(self) -> str:
-        """The functions whose change of sign is an event."""
-        return self._function(
-            f"AC_UNUSED static void ac_roots({_AT}, double *g)", [(f"g[{k}]", e) for k, e in enumerate(self.switching)]
-        )
+    def switches(self) -> list[str]:
+        """The functions whose change of sign is an event, and further ones."""
+        return [
+            self._function(f"AC_UNUSED static void {name}({_AT}, double *g)", [(f"g[{k}]", e) for k, e in enumerate(es)])
+            for name, es in {"ac_roots": self.switching, **self.further}.items()
+        ]
 
     def constants(self, tangents: bool) -> str:
         """Expressions of parameters, and with tangents theirs."""
@@ -270,7 +275,7 @@ class _Small:
         plan = self.plan()
         nominal = np.concatenate([self.lowered.x_nominal, self.lowered.w_nominal])
         functions, tangents = self.functions(), self.tangent_functions()
-        functions += [self.observe(), self.switches()]
+        functions += [self.observe(), *self.switches()]
         if observe_tangent:
             tangents.append(self.observe_tangent())
         constants, constants_tangent = self.constants(False), self.constants(True)
