@@ -1,7 +1,6 @@
 """Runs with events on the diffrax engine: each stretch between events is one diffrax solve with a root finder.
 
-Events themselves are carried out with NumPy, as on the native engine. A condition that switches there and back within
-one step is seen by the native engine only.
+Events themselves are carried out with NumPy, as on the native engine.
 """
 
 from __future__ import annotations
@@ -12,14 +11,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import diffrax
-import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 import optimistix as optx
-from jax import Array
 
 from acausal.errors import InitializationError, SimulationError
-from acausal.lowering.hybrid import Hybrid, Point, Roots
+from acausal.lowering.hybrid import Hybrid
 from acausal.lowering.initial_numeric import gauss_newton_part, solve_numeric
 from acausal.lowering.numeric import NumericRun, is_concrete
 
@@ -28,52 +25,16 @@ from .engines import all_signals, output_times
 from .event_iteration import EventIteration
 from .failure import explain
 from .hybrid_run import EVENT, run_hybrid, warn
+from .hybrid_static import Stretch, sides, static_integrate
 from .inputs import DrivenLowered, drive
 from .native_library import RESULTS, Floats
 from .rodas5p import Rodas5P
 from .solution import Solution
+from .switch import Switch
 
 SLACK = 1e-12
-SMALL = 1e-30
-"""The root finder asks for a small function as well as for a short interval: the interval alone is to count."""
 TIME = 1e-14
 """Relative and absolute width of the interval in which an event is located."""
-
-
-class _Switch(eqx.Module):
-    """Positive until a condition is on the other side than its mode says."""
-
-    slack: Array
-    lowered: Any = eqx.field(static=True)
-    roots: Roots = eqx.field(static=True)
-    together: bool = eqx.field(static=True)
-    n_x: int = eqx.field(static=True)
-
-    def __call__(self, t: Any, y: Any, args: Any, **_: Any) -> Array:
-        p, guess = (args, None) if self.together else args
-        w = y[self.n_x :] if self.together else self.lowered.solve_algebraic(t, y[: self.n_x], guess, p)
-        own: Any = self.lowered
-        vector = p
-        if isinstance(own, DrivenLowered):
-            own, vector = own.lowered, own.at(t, p)
-        g = own.residuals_of(self.roots.families, t, y[: self.n_x], w, vector)
-        slots = self.roots.slots
-        holds = jnp.where(slots < 0, True, vector[np.maximum(slots, 0)] != 0.0)
-        return SMALL * jnp.min(jnp.where(holds, -g, g) + self.slack)
-
-
-@dataclass(eq=False)
-class _Stretch:
-    """A stretch between events."""
-
-    z: Floats
-    code: int
-    saved: int
-    t_end: float
-    z_end: Floats
-    step: float
-    switched: Any
-    counts: dict[str, int]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -129,8 +90,6 @@ def simulate_events(
     t0, t1 = float(t0), float(t1)
     begin = time.perf_counter()
     low = system.lowered
-    if not low.n_x:
-        raise SimulationError("A model with events and without states does not run yet: give it a state.")
     lowered, numbers = drive(system, inputs) if inputs else (low, ())
     all_signals(system, {k: v for k, v in (inputs or {}).items() if not callable(v)})
     equations = NumericEquations(system, lowered, numbers)
@@ -158,13 +117,13 @@ def simulate_events(
 
     def integrate(
         t: float, stop: float, z: Floats, p: Floats, remaining: Floats, step: float, end_open: bool, steps: int
-    ) -> _Stretch:
+    ) -> Stretch:
         if stop <= t:
             n = 0 if end_open else int((remaining <= t).sum())
-            return _Stretch(np.tile(z, (n, 1)), 0, n, t, z, step, None, {})
+            return Stretch(np.tile(z, (n, 1)), 0, n, t, z, step, None, {})
         times = np.full(len(save), stop)
         times[: len(remaining)] = np.clip(remaining, t, stop)
-        switch = _Switch(jnp.asarray(_slack(hybrid, equations, t, z, p)), lowered, hybrid.roots, together, low.n_x)
+        switch = Switch(jnp.asarray(_slack(hybrid, equations, t, z, p)), lowered, hybrid.roots, together, low.n_x)
         event = diffrax.Event(switch, optx.Bisection(rtol=TIME, atol=TIME)) if hybrid.roots.count else None
         settings = plain.settings_of(
             method, ("times",), controller=stepsize_controller, has_dt=dt is not None, event=event, max_steps=most
@@ -189,9 +148,10 @@ def simulate_events(
             name = "max_steps_reached"
         result = EVENT if happened else RESULTS.index(name) if name in RESULTS else 1
         roots = _switched(hybrid, equations, t_end, z_end, p) if happened else None
-        return _Stretch(found, result, n, t_end, z_end, 0.0, roots, named)
+        return Stretch(found, result, n, t_end, z_end, 0.0, roots, named)
 
-    run = run_hybrid(iteration, outcome, t0, t1, save, integrate, first_step=0.0, max_steps=most)
+    stretch = integrate if low.n_x else static_integrate(hybrid, equations)
+    run = run_hybrid(iteration, outcome, t0, t1, save, stretch, first_step=0.0, max_steps=most)
     result = RESULTS[run.code] if run.code else "successful" if run.ended is None else f"terminated: {run.ended}"
     stats = {k: run.counts[k] for k in ("steps", "accepted", "rejected")}
     seconds = time.perf_counter() - begin
@@ -209,27 +169,15 @@ def simulate_events(
     return solution
 
 
-def _sides(hybrid: Hybrid, equations: NumericEquations, t: float, z: Floats, p: Floats) -> Floats:
-    """How far each condition is on the side that its mode says."""
-    p = p.copy()
-    equations.feed(t, p)
-    point = Point(t, equations.values(t, z, p), p)
-    parts = [np.broadcast_to(point.evaluate((f.residual,), f)[0], (f.size,)) for f in hybrid.roots.families]
-    g = np.concatenate([np.zeros(0), *parts])
-    slots = hybrid.roots.slots
-    holds = (slots < 0) | (p[np.maximum(slots, 0)] != 0.0)
-    return np.where(holds, -g, g)
-
-
 def _slack(hybrid: Hybrid, equations: NumericEquations, t: float, z: Floats, p: Floats) -> Floats:
-    side = _sides(hybrid, equations, t, z, p)
+    side = -sides(hybrid, equations, t, z, p)
     return np.where(side <= 0.0, 10.0 * np.abs(side) + SLACK, 0.0)
 
 
 def _switched(hybrid: Hybrid, equations: NumericEquations, t: float, z: Floats, p: Floats) -> Any:
     """The conditions that switch at a root: the nearest to its switch, and what is already behind."""
     settled = equations.settle(t, z, p)
-    side = _sides(hybrid, equations, t, z if settled is None else settled, p)
+    side = -sides(hybrid, equations, t, z if settled is None else settled, p)
     return side <= np.maximum(side.min(), 0.0) + SLACK
 
 

@@ -86,7 +86,7 @@ def _matrix_free_step(lowered: Lowered, t: Any, x: Array, w: Array, p: Array) ->
     return z[:n_x], z[n_x:]
 
 
-class _Wrapped(AbstractWrappedSolver[Any]):
+class Wrapped(AbstractWrappedSolver[Any]):
     """What a wrapper passes on to the solver in it."""
 
     @property
@@ -125,7 +125,7 @@ class _Wrapped(AbstractWrappedSolver[Any]):
         return self.solver.func(terms, t0, y0, args)
 
 
-class Projected(_Wrapped):
+class Projected(Wrapped):
     """Any diffrax solver, with `project(t, y, args) -> y` run on the candidate of each step.
 
     Args:
@@ -156,7 +156,7 @@ def _end(dense_info: Any, y1: Any) -> Any:
     return {**dense_info, "y1": y1} if isinstance(dense_info, dict) and "y1" in dense_info else dense_info
 
 
-class WithAlgebraic(_Wrapped):
+class WithAlgebraic(Wrapped):
     """A diffrax solver of `x' = f(t, x, (p, w))` that carries w from step to step as the guess for its own equations.
 
     Args:

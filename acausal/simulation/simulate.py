@@ -29,6 +29,7 @@ from .rodas5p import Rodas5P
 from .solution import Solution
 from .sparse import DENSE_BELOW, SparseKLU, free_factors, sparse_linear_solver
 from .start import start
+from .switch import Switch, Watched
 
 POINTS = 501
 """Output points when `saveat` is not given."""
@@ -282,6 +283,8 @@ def _solve(
         sub = diffrax.SubSaveAt(t0=where[1], t1=where[2], ts=points, steps=where[3])
     else:
         sub = diffrax.SubSaveAt(ts=points)
+    if settings.event is not None and isinstance(settings.event.cond_fn, Switch):
+        solver = Watched(solver, settings.event.cond_fn)
     keep = _keeps_factors(settings.solver)
     saveat = diffrax.SaveAt(subs=[sub, diffrax.SubSaveAt(t1=True)], solver_state=keep)
     solved = diffrax.diffeqsolve(

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from .differentiate import partial
 from .expr import ZERO, Expr, add, div, neg
 from .operators import OPERATORS
-from .traverse import contains, leaves, substitute
+from .traverse import contains, leaves, postorder, substitute
 
 
 class Solvability(enum.IntEnum):
@@ -55,6 +55,8 @@ def _quotient(rest: Expr, slope: Expr) -> Expr:
 def _class_of(slope: Expr) -> Solvability:
     if slope.op == "const":
         return Solvability.CONSTANT
+    if any(n.op == "where" and (n.args[1] is ZERO or n.args[2] is ZERO) for n in postorder((slope,))):
+        return Solvability.VARIABLE  # in one of its modes it vanishes
     kinds = {leaf.op for leaf in leaves(slope)}
     return Solvability.PARAMETER if kinds <= {"par"} else Solvability.VARIABLE
 
