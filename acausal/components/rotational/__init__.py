@@ -13,6 +13,12 @@ from .components import Inertia as Inertia
 from .components import RelativeStates as RelativeStates
 from .components import Spring as Spring
 from .components import SpringDamper as SpringDamper
+from .friction import BearingFriction as BearingFriction
+from .friction import Brake as Brake
+from .friction import Clutch as Clutch
+from .friction import OneWayClutch as OneWayClutch
+from .friction import PartialFriction as PartialFriction
+from .friction import PartialNormalForce as PartialNormalForce
 from .gears import IdealGear as IdealGear
 from .gears import IdealGearR2T as IdealGearR2T
 from .gears import IdealPlanetary as IdealPlanetary

@@ -16,6 +16,11 @@ from .components import Rod as Rod
 from .components import Spring as Spring
 from .components import SpringDamper as SpringDamper
 from .components import ViscousFriction as ViscousFriction
+from .friction import Brake as Brake
+from .friction import MassWithStopAndFriction as MassWithStopAndFriction
+from .friction import PartialFriction as PartialFriction
+from .friction import PartialNormalForce as PartialNormalForce
+from .friction import SupportFriction as SupportFriction
 from .interfaces import Flange as Flange
 from .interfaces import PartialAbsoluteSensor as PartialAbsoluteSensor
 from .interfaces import PartialCompliant as PartialCompliant
