@@ -64,17 +64,25 @@ static void ac_arm(ac_work *w, double t) {
         if (ac_switched(w, w->g0, k)) w->slack[k] = 10.0 * fabs(w->g0[k]) + 1e-12;
 }
 
-static void ac_at(ac_work *w, double t, double h, double s, double *g) {
-    ac_interpolate(s, w->z, w->z1, w->v, w->y);
+/* The solution within a step, 0 <= s <= 1. */
+typedef void (*ac_curve)(const ac_work *w, const void *data, double s, double *out);
+
+static void ac_dense_curve(const ac_work *w, const void *data, double s, double *out) {
+    (void)data;
+    ac_interpolate(s, w->z, w->z1, w->v, out);
+}
+
+static void ac_at(ac_work *w, double t, double h, ac_curve curve, const void *data, double s, double *g) {
+    curve(w, data, s, w->y);
     ac_inputs(w, t + s * h);
     ac_roots(&w->m, t + s * h, w->y, g);
 }
 
 /* Where in the step (0, 1] something has switched, on the dense output: just behind the first switch found; 2 if none.
    Looked at are the end, the middle, and where a parabola through three values has its extremum. */
-static double ac_first_switch(ac_work *w, double t, double h) {
+static double ac_first_switch(ac_work *w, double t, double h, ac_curve curve, const void *data) {
     double from = 0.0, to = 2.0;
-    ac_at(w, t, h, 0.5, w->g1);
+    ac_at(w, t, h, curve, data, 0.5, w->g1);
     ac_inputs(w, t + h);
     ac_roots(&w->m, t + h, w->z1, w->g2);
     const int middle = ac_any(w, w->g1), end = ac_any(w, w->g2);
@@ -93,7 +101,7 @@ static double ac_first_switch(ac_work *w, double t, double h) {
         if (top < nearest && top < to) nearest = top;
     }
     if (nearest < to) {
-        ac_at(w, t, h, nearest, w->g3);
+        ac_at(w, t, h, curve, data, nearest, w->g3);
         if (ac_any(w, w->g3)) from = nearest > 0.5 ? ac_min(from, nearest) : 0.0, to = nearest;
     }
     if (to > 1.0) return 2.0;
@@ -101,8 +109,8 @@ static double ac_first_switch(ac_work *w, double t, double h) {
         double s = 0.5 * (from + to);
         if (turn % 3) { /* the secant of what switches first */
             double first = 2.0;
-            ac_at(w, t, h, from, w->g1);
-            ac_at(w, t, h, to, w->g3);
+            ac_at(w, t, h, curve, data, from, w->g1);
+            ac_at(w, t, h, curve, data, to, w->g3);
             for (int k = 0; k < AC_NR; k++) {
                 int at_zero;
                 if (!ac_switched(w, w->g3, k)) continue;
@@ -117,7 +125,7 @@ static double ac_first_switch(ac_work *w, double t, double h) {
             if (!(s > from && s < to)) s = 0.5 * (from + to);
         }
         if (s <= from || s >= to) break;
-        ac_at(w, t, h, s, w->g1);
+        ac_at(w, t, h, curve, data, s, w->g1);
         if (ac_any(w, w->g1)) to = s;
         else from = s;
     }
@@ -149,12 +157,12 @@ static int ac_ends(ac_work *w, double t1) {
 static int ac_to_switch(ac_work *w, double t, double *step) {
     const double h = *step;
     for (int r = 0; r < 3; r++) ac_combine(w, ac_H[r], NULL, w->v[r]);
-    double s = ac_first_switch(w, t, h);
+    double s = ac_first_switch(w, t, h, ac_dense_curve, NULL);
     if (s > 1.0) return 0;
     /* rates at which the conditions pass, on the dense output */
     const double aside = ac_max(1e-6, 1e-12 * fabs(t / h)), back = s > aside ? s - aside : 0.0;
-    ac_at(w, t, h, back, w->g1);
-    ac_at(w, t, h, s, w->g3);
+    ac_at(w, t, h, ac_dense_curve, NULL, back, w->g1);
+    ac_at(w, t, h, ac_dense_curve, NULL, s, w->g3);
     for (int k = 0; k < AC_NR; k++) {
         int at_zero;
         w->rate[k] = (ac_beyond(w, w->g3, k, &at_zero) - ac_beyond(w, w->g1, k, &at_zero)) / (s - back);
@@ -191,5 +199,21 @@ static int ac_to_switch(ac_work *w, double t, double *step) {
         s += further, further *= 4.0;
     }
     return ac_again(w, t, h) ? -1 : 0; /* on the dense output only: the step as it was */
+}
+
+/* After a step whose end has the values g2: tells what has switched, or goes on from there. */
+static void ac_note(ac_problem *q, ac_work *w, int event) {
+    for (int k = 0; k < AC_NR; k++) {
+        if (event) {
+            q->switched[k] = ac_switched(w, w->g2, k);
+            continue;
+        }
+        w->g0[k] = w->g2[k];
+        if (w->slack[k] > 0.0) {
+            const double slack = w->slack[k];
+            w->slack[k] = 0.0;
+            if (ac_switched(w, w->g2, k)) w->slack[k] = slack;
+        }
+    }
 }
 #endif

@@ -8,7 +8,7 @@
 
 typedef struct {
     double k[4][AC_N], phi[AC_ORDERS + 3][AC_N], past[AC_ORDERS + 2][AC_N];
-    double f1[AC_N], predicted[AC_N], x[AC_ORDERS + 2], z0[AC_N], ignored[AC_N];
+    double h, end[AC_N], f1[AC_N], predicted[AC_N], x[AC_ORDERS + 2], z0[AC_N], ignored[AC_N];
 } ac_explicit_work;
 
 static void ac_hermite(
@@ -18,29 +18,71 @@ static void ac_hermite(
     for (int i = AC_NX; i < AC_N; i++) out[i] = (1.0 - s) * y0[i] + s * y1[i];
 }
 
+/* Whether what is due at time `at` is saved in a step that ends at t1: what is saved at an event is what follows it. */
+static int ac_due(const ac_problem *q, double at, double t1, double direction, int event) {
+    return direction * (at - t1) <= (event || (q->open && t1 == q->t1) ? -1e-300 : 0.0);
+}
+
+#if AC_NR > 0
+/* Ends a step of size *h at the first switch on the curve through it: z1 is then consistent there, 1 is returned, -1 where
+   that fails. */
+static int ac_cut(const ac_problem *q, ac_work *w, ac_explicit_work *e, double t, double *h, ac_curve curve, void *data) {
+    if (!q->located) return 0;
+    double s = ac_first_switch(w, t, *h, curve, data), further = 2e-16 * ac_max(fabs(t / *h), 1.0);
+    for (int turn = 0; s <= 1.0 && turn < 40; turn++) {
+        double *out = e->predicted;
+        curve(w, data, s, out);
+        if (AC_N > AC_NX && ac_slope(w, t + s * *h, out, e->ignored)) return -1;
+        ac_inputs(w, t + s * *h);
+        ac_roots(&w->m, t + s * *h, out, w->g2);
+        if (ac_any(w, w->g2)) {
+            memcpy(w->z1, out, sizeof w->z1);
+            *h *= s;
+            return 1;
+        }
+        if (s == 1.0) return 0;
+        s = ac_min(s + further, 1.0), further *= 4.0;
+    }
+    return 0;
+}
+#endif
+
 /* Output inside a step from t to t1; the algebraic unknowns are solved for at the output time. */
-static int ac_save_between(ac_problem *q, ac_work *w, ac_explicit_work *e, double t, double h, double direction) {
-    while (q->saved < q->n_save && direction * (q->save[q->saved] - (t + h)) <= 0.0) {
+static int ac_save_between(ac_problem *q, ac_work *w, ac_explicit_work *e, double t, double h, double direction, int event) {
+    while (q->saved < q->n_save && ac_due(q, q->save[q->saved], t + h, direction, event)) {
         double *out = q->z_out + q->saved * AC_N;
         const double at = q->save[q->saved];
-        ac_hermite((at - t) / h, h, w->z, w->f, w->z1, e->f1, out);
+        ac_hermite((at - t) / e->h, e->h, w->z, w->f, e->end, e->f1, out);
         if (AC_N > AC_NX && ac_slope(w, at, out, e->ignored)) return 1;
         q->saved++;
     }
     return 0;
 }
 
+#if AC_NR > 0
+static void ac_hermite_curve(const ac_work *w, const void *data, double s, double *out) {
+    const ac_explicit_work *e = data;
+    ac_hermite(s, e->h, w->z, w->f, e->end, e->f1, out);
+}
+#endif
+
 static int ac_fixed_steps(ac_problem *q, ac_work *w, ac_explicit_work *e) {
     static const double node[4] = {0.0, 0.5, 0.5, 1.0}, weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
     const double direction = q->t1 >= q->t0 ? 1.0 : -1.0, span = fabs(q->t1 - q->t0);
     const long count = (long)ceil(span / q->first_step * (1.0 - 1e-12));
     if (ac_slope(w, q->t0, w->z, w->f)) return AC_SINGULAR;
-    for (; q->saved < q->n_save && direction * (q->save[q->saved] - q->t0) <= 0.0; q->saved++)
+    for (; q->saved < q->n_save && ac_due(q, q->save[q->saved], q->t0, direction, 0); q->saved++)
         memcpy(q->z_out + q->saved * AC_N, w->z, sizeof w->z);
+    q->step = q->first_step;
+#if AC_NR > 0
+    if (q->located) ac_arm(w, q->t0);
+#endif
     for (long n = 0; n < count; n++) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
         if (ac_watched(q)) return AC_STOPPED;
-        const double t = q->t_end, t1 = n + 1 == count ? q->t1 : q->t0 + direction * (n + 1) * q->first_step, h = t1 - t;
+        const double t = q->t_end, t1 = n + 1 == count ? q->t1 : q->t0 + direction * (n + 1) * q->first_step;
+        double h = t1 - t;
+        int event = 0;
         memcpy(w->z1, w->z, sizeof w->z);
         memcpy(e->k[0], w->f, sizeof w->f);
         memcpy(w->y, w->z, sizeof w->z);
@@ -59,10 +101,20 @@ static int ac_fixed_steps(ac_problem *q, ac_work *w, ac_explicit_work *e) {
         ac_project(w, NULL, t1);
 #endif
         if (ac_slope(w, t1, w->z1, e->f1)) return AC_SINGULAR;
-        if (ac_save_between(q, w, e, t, h, direction)) return AC_SINGULAR;
+        e->h = h;
+        memcpy(e->end, w->z1, sizeof w->z1);
+#if AC_NR > 0
+        event = ac_cut(q, w, e, t, &h, ac_hermite_curve, e);
+        if (event < 0) return AC_SINGULAR;
+#endif
+        if (ac_save_between(q, w, e, t, h, direction, event)) return AC_SINGULAR;
         memcpy(w->z, w->z1, sizeof w->z);
         memcpy(w->f, e->f1, sizeof w->f);
-        q->t_end = t1;
+        q->t_end = event ? t + h : t1;
+#if AC_NR > 0
+        if (q->located) ac_note(q, w, event);
+        if (event) return AC_EVENT;
+#endif
     }
     return AC_DONE;
 }
@@ -110,6 +162,21 @@ static void ac_adams_output(const ac_explicit_work *e, int k, const double *z1, 
         for (int i = 0; i < AC_NX; i++) out[i] += total[j] * e->phi[j][i];
 }
 
+#if AC_NR > 0
+typedef struct {
+    const ac_explicit_work *e;
+    const double *end;
+    int k;
+    double h;
+} ac_adams_step;
+
+static void ac_adams_curve(const ac_work *w, const void *data, double s, double *out) {
+    const ac_adams_step *step = data;
+    (void)w;
+    ac_adams_output(step->e, step->k, step->end, step->e->x[0] - (1.0 - s) * step->h, out);
+}
+#endif
+
 static int ac_adams(ac_problem *q, ac_work *w, ac_explicit_work *e) {
     static const double gamma[AC_ORDERS + 2] = {1.0,         0.5,           0.083333333, 0.041666667, 0.026388889,
                                                 0.01875,     0.0142691799,  0.0113673942, 0.0093565365, 0.0078925540,
@@ -123,8 +190,11 @@ static int ac_adams(ac_problem *q, ac_work *w, ac_explicit_work *e) {
     memset(e->phi, 0, sizeof e->phi);
     memcpy(e->phi[0], w->f, sizeof w->f);
     e->x[0] = q->t0;
-    for (; q->saved < q->n_save && direction * (q->save[q->saved] - q->t0) <= 0.0; q->saved++)
+    for (; q->saved < q->n_save && ac_due(q, q->save[q->saved], q->t0, direction, 0); q->saved++)
         memcpy(q->z_out + q->saved * AC_N, w->z, sizeof w->z);
+#if AC_NR > 0
+    if (q->located) ac_arm(w, q->t0);
+#endif
     while (direction * (q->t1 - q->t_end) > 0.0) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
         if (ac_watched(q)) return AC_STOPPED;
@@ -173,14 +243,26 @@ static int ac_adams(ac_problem *q, ac_work *w, ac_explicit_work *e) {
         }
         for (int j = AC_ORDERS + 1; j > 0; j--) e->x[j] = e->x[j - 1];
         e->x[0] = t1;
-        for (; q->saved < q->n_save && direction * (q->save[q->saved] - t1) <= 0.0; q->saved++) {
+        double cut = step;
+        int event = 0;
+        memcpy(e->end, w->z1, sizeof w->z1);
+#if AC_NR > 0
+        ac_adams_step whole = {e, e->end, k, step};
+        event = ac_cut(q, w, e, t, &cut, ac_adams_curve, &whole);
+        if (event < 0) return AC_SINGULAR;
+#endif
+        for (; q->saved < q->n_save && ac_due(q, q->save[q->saved], event ? t + cut : t1, direction, event); q->saved++) {
             double *out = q->z_out + q->saved * AC_N;
-            ac_adams_output(e, k, w->z1, q->save[q->saved], out);
+            ac_adams_output(e, k, e->end, q->save[q->saved], out);
             if (AC_N > AC_NX && ac_slope(w, q->save[q->saved], out, e->ignored)) return AC_SINGULAR;
         }
         memcpy(w->z, w->z1, sizeof w->z);
         memcpy(w->f, e->f1, sizeof w->f);
-        q->t_end = t1;
+        q->t_end = event ? t + cut : t1;
+#if AC_NR > 0
+        if (q->located) ac_note(q, w, event);
+        if (event) return AC_EVENT;
+#endif
         if (known <= AC_ORDERS) known++;
         const double size = fabs(step);
         if (starting && k < AC_ORDERS && error <= 0.25 && known > k) {

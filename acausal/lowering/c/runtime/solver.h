@@ -386,16 +386,8 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
         q->step = h = next;
 #if AC_NR > 0
         if (q->located) {
-            for (int k = 0; event && k < AC_NR; k++) q->switched[k] = ac_switched(w, w->g2, k);
+            ac_note(q, w, event);
             if (event) return AC_EVENT;
-            for (int k = 0; k < AC_NR; k++) {
-                w->g0[k] = w->g2[k];
-                if (w->slack[k] > 0.0) {
-                    const double slack = w->slack[k];
-                    w->slack[k] = 0.0;
-                    if (ac_switched(w, w->g2, k)) w->slack[k] = slack;
-                }
-            }
         }
 #endif
     }
