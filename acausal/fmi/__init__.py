@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from .coupling import PowerBond as PowerBond
     from .exporter.export import export as export
     from .exporter.variables import ExportError as ExportError
+    from .fmu import Fmu as Fmu
+    from .fmu import FmuError as FmuError
+    from .fmu import load as load
+    from .mujoco_participant import MujocoParticipant as MujocoParticipant
     from .participant import CoSimulationError as CoSimulationError
     from .participant import Participant as Participant
     from .result import CoSimulationResult as CoSimulationResult
@@ -25,11 +29,15 @@ _LAZY = {
     "CoSimulationError": "participant",
     "CoSimulationResult": "result",
     "ExportError": "exporter.variables",
+    "Fmu": "fmu",
+    "FmuError": "fmu",
+    "MujocoParticipant": "mujoco_participant",
     "Participant": "participant",
     "PowerBond": "coupling",
     "Split": "splitting",
     "SystemParticipant": "system_participant",
     "export": "exporter.export",
+    "load": "fmu",
     "split": "splitting",
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal, cast
@@ -198,7 +199,7 @@ def _participant(name: str, given: Any) -> Participant:
 
     if isinstance(given, Fmu):
         return given.participant(name=name)
-    if isinstance(given, (str, bytes)) or hasattr(given, "__fspath__"):
+    if isinstance(given, (str, os.PathLike)):
         return load(given).participant(name=name)
     raise CoSimulationError(
         f"participant `{name}` is a {type(given).__name__}: give a compiled system, an FMU or its path, or an object "

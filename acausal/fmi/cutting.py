@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import new_class
 from typing import Any, cast
 
 from ..errors import ConnectError, DeclarationError, StructureError, nearest
@@ -293,9 +294,7 @@ def _side(halves: Halves, near: bool, imposes_flow: Mapping[Path, bool]) -> Comp
         yield from initial
 
     namespace["equations"], namespace["initial_equations"] = equations, initial_equations
-    made = cast(
-        "type[Component]", type(Component)(f"{cls.__name__}{'Near' if near else 'Far'}", (Component,), namespace)
-    )
+    made = new_class(f"{cls.__name__}{'Near' if near else 'Far'}", (Component,), None, lambda ns: ns.update(namespace))
     mods = {k: v for k, v in model.__dict__["_mods"].items() if k in annotations}
     return made(**mods)
 
@@ -373,5 +372,5 @@ def _boundary_class(kind: type[Connector]) -> type[Component]:
             "__module__": __name__, "__doc__": f"Stands for what was connected to a `{kind.__name__}`.",
             "port": kind(), "__annotations__": {"port": kind},
         }  # fmt: skip
-        _boundaries[kind] = cast("type[Component]", type(Component)(f"{kind.__name__}Boundary", (Component,), body))
+        _boundaries[kind] = new_class(f"{kind.__name__}Boundary", (Component,), None, lambda ns: ns.update(body))
     return _boundaries[kind]

@@ -134,18 +134,24 @@ class Fmu:
             raise FmuError(f"{self.path.name} could not be instantiated: {error}") from error
 
     def participant(
-        self, *, outputs: Sequence[str] = (), parameters: Mapping[str, float] | None = None, name: str | None = None
+        self,
+        *,
+        outputs: Sequence[str] = (),
+        parameters: Mapping[str, float] | None = None,
+        needs: Mapping[str, int] | None = None,
+        name: str | None = None,
     ) -> FmuParticipant:
         """As a participant of a co-simulation.
 
         Args:
             outputs: names of further variables to give out.
             parameters: values by name.
+            needs: by quantity with Taylor coefficients, how many derivatives of it the model uses.
             name: shown in messages.
         """
         from .fmu_participant import FmuParticipant
 
-        return FmuParticipant(self, outputs=outputs, parameters=parameters, name=name)
+        return FmuParticipant(self, outputs=outputs, parameters=parameters, needs=needs, name=name)
 
     def component(self, *, parameters: Mapping[str, float] | None = None) -> Component:
         """As a component of a model: its inputs and outputs are signals, its states are states of the system.

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, cast
+from types import new_class
+from typing import Any
 
 import numpy as np
 
@@ -160,8 +161,7 @@ def fmu_component(fmu: Fmu, parameters: Mapping[str, float]) -> Component:
         "__module__": __name__, "__doc__": f"The functional mock-up unit {fmu.path.name}.", "equations": equations,
         **{f: d for f, d in fields.values()}, "__annotations__": {f: type(d) for f, d in fields.values()},
     }  # fmt: skip
-    made = cast("type[Component]", type(Component)(_identifier(fmu.name), (Component,), namespace))
-    return made()
+    return new_class(_identifier(fmu.name), (Component,), None, lambda ns: ns.update(namespace))()
 
 
 def _identifier(name: str) -> str:

@@ -8,78 +8,105 @@ from typing import Any
 
 import numpy as np
 
+from .cutting import INSTANT
 from .fmu import Fmu, FmuError, get_reals, set_reals
-from .participant import CoSimulationError, Floats
+from .participant import DEGREE, CoSimulationError, Floats
 
-_MATCH = {1: "c1", 2: "c2", 3: "c3"}
+_TAILS = tuple(f"_c{k}" for k in range(1, DEGREE + 1))
 
 
 class FmuParticipant:
     """A co-simulation FMU that steps in this process.
 
-    Inputs of higher degree than the FMU can follow are held at their mean over the step. Quantities that another
-    tool exported with their Taylor coefficients as inputs (``name``, ``name_c1``, ...; `export` writes sides of a split
-    so) get these.
+    An input arrives as a polynomial in time: of an FMI 2.0 unit that interpolates, its first derivative is handed on;
+    of others its mean over the step. A quantity whose Taylor coefficients are inputs or parameters of the unit
+    (``name``, ``name_c1``, ..., and ``t_communication`` for their origin, as sides of a `split` have them) gets them
+    all.
 
     Args:
         fmu: the unit.
         outputs: names of further variables to give out.
         parameters: values by name.
+        needs: by quantity with Taylor coefficients, how many derivatives of it the model uses (2).
         name: shown in messages.
+
+    Raises:
+        FmuError: it does not offer co-simulation.
+        UnknownNameError: an output or parameter that it does not have.
     """
 
     def __init__(
-        self, fmu: Fmu, *, outputs: Sequence[str] = (), parameters: Mapping[str, float] | None = None,
+        self,
+        fmu: Fmu,
+        *,
+        outputs: Sequence[str] = (),
+        parameters: Mapping[str, float] | None = None,
+        needs: Mapping[str, int] | None = None,
         name: str | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         if "cs" not in fmu.kinds:
             raise FmuError(f"{fmu.path.name} does not offer co-simulation; use it as a component of a model")
         self.fmu, self.name = fmu, name or fmu.name
         every = fmu.names("input")
+        settable = {*every, *fmu.names("parameter")}
         self._series = {
-            n: tuple(f"{n}_{tail}" for tail in _MATCH.values()) for n in every
-            if all(f"{n}_{tail}" in every for tail in _MATCH.values())
+            n: tuple(n + tail for tail in _TAILS) for n in fmu.variables
+            if n in settable and all(n + tail in settable for tail in _TAILS)
         }  # fmt: skip
         hidden = {c for series in self._series.values() for c in series}
-        self.inputs = tuple(n for n in every if n not in hidden)
+        plain = [n for n in every if n not in hidden and n not in self._series]
+        self.inputs = (*plain, *self._series)
         self.outputs = tuple(dict.fromkeys([*fmu.names("output"), *outputs]))
-        self.needs = {n: self._needed(n) for n in self.inputs}
-        self.feedthrough: frozenset[str] = frozenset()
+        given = dict(needs or {})
+        self.needs = {n: given.get(n, 2) if n in self._series else 0 for n in self.inputs}
         capability = fmu.description.coSimulation
-        self.can_reject = bool(getattr(capability, "canGetAndSetFMUstate", False) or
-                               getattr(capability, "canGetAndSetFMUState", False))  # fmt: skip
-        self._interpolates = bool(getattr(capability, "canInterpolateInputs", False)) and fmu.version == "2.0"
+        self.can_reject = bool(capability.canGetAndSetFMUstate)
+        self._follows = bool(capability.canInterpolateInputs) and fmu.version == "2.0"
+        self._orders = int(capability.maxOutputDerivativeOrder or 0)
         self.parameters = dict(parameters or {})
-        self._places = [fmu.variable(n).valueReference for n in self.inputs]
+        self._plain = [fmu.variable(n).valueReference for n in plain]
+        self._coefficients = [
+            fmu.variable(v).valueReference for n, tails in self._series.items() for v in (n, *tails)
+        ]  # fmt: skip
+        self._origin = [fmu.variable(INSTANT).valueReference] if self._series and INSTANT in settable else []
         self._reads = [fmu.variable(n).valueReference for n in self.outputs]
-        self._rates = {n: self._rate_of(n) for n in self.outputs}
+        self.feedthrough = frozenset(self._direct())
         self._derived: list[tuple[int, int, int]] = []
+        self._rates: list[int] = []
         self._instance: Any = None
         self._running = False
+        self._saved: Any = None
         self._counts: dict[str, float] = {"macro_steps": 0, "steps": 0, "seconds": 0.0}
 
-    def _needed(self, name: str) -> int:
-        """Derivatives of an input that the unit says it uses, in the description of its first coefficient."""
-        if name not in self._series:
-            return 0
-        text = self.fmu.variable(self._series[name][0]).description or ""
-        return 2 if "second" in text else 1
-
-    def _rate_of(self, name: str) -> int | None:
-        """Value reference of the variable ``der(name)``, if there is one."""
-        variable = self.fmu.variables.get(f"der({name})")
-        return None if variable is None else int(variable.valueReference)
+    def _direct(self) -> list[str]:
+        """Outputs that depend on inputs at the same instant, as far as the model description tells."""
+        known = {u.variable.name: u.dependencies for u in self.fmu.description.outputs if u.variable is not None}
+        inputs = set(self.fmu.names("input"))
+        return [
+            n for n in self.outputs
+            if self._series or known.get(n) is None or any(d.name in inputs for d in known[n] or ())
+        ]  # fmt: skip
 
     def require(self, output: str, order: int) -> bool:
-        """Ask for time derivatives of an output: those that the unit gives out as ``der(output)``."""
-        k, at = self.outputs.index(output), output
+        """Ask for time derivatives of an output: what the unit gives out as a derivative of it, or at its steps."""
+        k, reference = self.outputs.index(output), int(self.fmu.variable(output).valueReference)
         for j in range(1, order + 1):
-            reference = self._rate_of(at)
-            if reference is None:
-                return False
-            self._derived.append((k, j, reference))
-            at = f"der({at})"
+            rate = self._rate_of(reference)
+            if rate is None:
+                if j > 1 or not self._orders:
+                    return False
+                self._rates.append(k)
+                return order == 1
+            self._derived.append((k, j, rate))
+            reference = rate
         return True
+
+    def _rate_of(self, reference: int) -> int | None:
+        """Value reference of the derivative of a variable, if the model description has it."""
+        for v in self.fmu.variables.values():
+            if v.derivative is not None and int(v.derivative.valueReference) == reference:
+                return int(v.valueReference)
+        return None
 
     def nominal(self, name: str) -> float:
         """Nominal value of the model description, else 0."""
@@ -104,7 +131,7 @@ class FmuParticipant:
                     self._instance.enterInitializationMode()
                 else:
                     self._instance.enterInitializationMode(startTime=t0)
-            self._set(coefficients, 0.0)
+            self._set(t0, coefficients, 0.0)
         except FmuError:
             raise
         except Exception as error:  # FMPy raises plain exceptions
@@ -115,21 +142,19 @@ class FmuParticipant:
         references = [self.fmu.variable(n).valueReference for n in names]
         set_reals(self._instance, references, [float(self.parameters[n]) for n in names])
 
-    def _set(self, coefficients: Floats, h: float) -> None:
-        """Inputs as they can be followed over a step of length h."""
-        series = [(n, row) for n, row in zip(self.inputs, coefficients, strict=True) if n in self._series]
-        mean = coefficients @ (h ** np.arange(coefficients.shape[1]) / np.arange(1, coefficients.shape[1] + 1))
-        values = coefficients[:, 0] if self._interpolates else mean
-        plain = [(r, v) for n, r, v in zip(self.inputs, self._places, values, strict=True) if n not in self._series]
-        set_reals(self._instance, [r for r, _ in plain], [float(v) for _, v in plain])
-        for name, row in series:
-            names = (name, *self._series[name])
-            set_reals(self._instance, [self.fmu.variable(n).valueReference for n in names], row.tolist())
-        if self._interpolates and h > 0:
-            slopes = [(r, float(c[1])) for r, c in zip(self._places, coefficients, strict=True) if c[1]]
-            if slopes:
-                references, numbers = zip(*slopes, strict=True)
-                self._instance.setRealInputDerivatives(references, [1] * len(slopes), numbers)
+    def _set(self, t: float, coefficients: Floats, h: float) -> None:
+        """Inputs as they can be followed over a step of length h from t."""
+        n = len(self._plain)
+        plain, series = coefficients[:n], coefficients[n:]
+        powers = np.arange(coefficients.shape[1])
+        values = plain[:, 0] if self._follows else plain @ (h**powers / (powers + 1.0))
+        set_reals(self._instance, self._plain, values.tolist())
+        set_reals(self._instance, self._coefficients, series.ravel().tolist())
+        set_reals(self._instance, self._origin, [t] * len(self._origin))
+        if self._follows and n:
+            # at the end of a step only the value counts, else the straight line from the first to the last value
+            slopes = (plain @ h**powers - plain[:, 0]) / h if h else np.zeros(n)
+            self._instance.setRealInputDerivatives(self._plain, [1] * n, slopes.tolist())
 
     def step(self, t: float, h: float, coefficients: Floats) -> None:
         """Advance from t to t + h.
@@ -142,7 +167,7 @@ class FmuParticipant:
             if not self._running:
                 self._instance.exitInitializationMode()
                 self._running = True
-            self._set(coefficients, h)
+            self._set(t, coefficients, h)
             if self.fmu.version == "2.0":
                 self._instance.doStep(t, h)
             else:
@@ -158,30 +183,49 @@ class FmuParticipant:
         self._counts["seconds"] += time.perf_counter() - begin
 
     def evaluate(self, t: float, coefficients: Floats) -> Floats:
-        """Outputs, as the unit computed them at the end of its last step, (3, n_y)."""
+        """Outputs under these inputs, (3, n_y); of a unit that computes outputs in its steps alone, the last ones."""
         begin = time.perf_counter()
         values = np.full((3, len(self.outputs)), np.nan)
+        if self.feedthrough:
+            self._set(t, coefficients, 0.0)
         values[0] = get_reals(self._instance, self._reads)
-        if self._derived:
-            found = get_reals(self._instance, [r for _, _, r in self._derived])
-            for (k, order, _), value in zip(self._derived, found, strict=True):
-                values[order, k] = value
+        found = get_reals(self._instance, [r for _, _, r in self._derived])
+        for (k, order, _), value in zip(self._derived, found, strict=True):
+            values[order, k] = value
+        if self._rates:
+            values[1, self._rates] = self._slopes() if self._running else 0.0
         self._counts["seconds"] += time.perf_counter() - begin
         return values
 
+    def _slopes(self) -> list[float]:
+        """First derivatives of outputs, which units tell in step mode."""
+        get = (
+            self._instance.getRealOutputDerivatives
+            if self.fmu.version == "2.0"
+            else self._instance.getOutputDerivatives
+        )
+        return list(get([self._reads[k] for k in self._rates], [1] * len(self._rates)))
+
     def save(self) -> Any:
-        """The unit's state (None before its first step)."""
-        get = getattr(self._instance, "getFMUState", None) or self._instance.getFMUstate
-        return get()
+        """The unit's state; the one saved before is freed."""
+        self._free()
+        self._saved = self._instance.getFMUState()
+        return self._saved, self._running
 
     def restore(self, state: Any) -> None:
-        """Go back to a saved state."""
-        put = getattr(self._instance, "setFMUState", None) or self._instance.setFMUstate
-        put(state)
+        """Go back to the saved state."""
+        saved, self._running = state
+        self._instance.setFMUState(saved)
+
+    def _free(self) -> None:
+        if self._saved is not None:
+            self._instance.freeFMUState(self._saved)
+            self._saved = None
 
     def close(self) -> None:
         """Terminate and free the instance."""
         if self._instance is not None:
+            self._free()
             if self._running:
                 self._instance.terminate()
             self._instance.freeInstance()

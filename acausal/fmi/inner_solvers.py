@@ -17,7 +17,8 @@ from ..simulation.projection import Projected, WithAlgebraic, project
 from ..simulation.rk4 import RK4
 from ..simulation.rodas5p import Rodas5P
 
-Advance = Callable[..., tuple[Array, Array, Array, Array, Array]]
+Advanced = tuple[Array, Array, Array, Array, Array]
+Advance = Callable[..., Advanced]
 """(t, h, x, w, p, hint) -> states, algebraic unknowns, next first step, steps taken, whether it succeeded."""
 
 MAX_STEPS = 100_000
@@ -64,7 +65,7 @@ def _finish(lowered: Any, t: Any, x: Array, w: Array, p: Any) -> tuple[Array, Ar
 
 
 def _without_states(lowered: Any) -> Advance:
-    def advance(t: Any, h: Any, x: Array, w: Array, p: Any, hint: Any) -> tuple[Array, ...]:
+    def advance(t: Any, h: Any, x: Array, w: Array, p: Any, hint: Any) -> Advanced:
         x, w = _finish(lowered, t + h, x, w, p)
         return x, w, hint, jnp.asarray(0), jnp.all(jnp.isfinite(w))
 
@@ -74,7 +75,7 @@ def _without_states(lowered: Any) -> Advance:
 def _rk4(lowered: Any, dt: float) -> Advance:
     field = _field(lowered)
 
-    def advance(t: Any, h: Any, x: Array, w: Array, p: Any, hint: Any) -> tuple[Array, ...]:
+    def advance(t: Any, h: Any, x: Array, w: Array, p: Any, hint: Any) -> Advanced:
         n = jnp.maximum(jnp.ceil(h / dt - 1e-9), 1).astype(int)
         step = h / n
 
@@ -110,7 +111,7 @@ def _diffrax(lowered: Any, solver: Any, dt: float | None, rtol: float, atol: flo
     if not adaptive and dt is None:
         raise SimulationError(f"`{type(solver).__name__}` takes fixed steps: give the step, `dt=1e-4`.")
 
-    def advance(t: Any, h: Any, x: Array, w: Array, p: Any, hint: Any) -> tuple[Array, ...]:
+    def advance(t: Any, h: Any, x: Array, w: Array, p: Any, hint: Any) -> Advanced:
         if adaptive:
             smallest = ROUNDING * jnp.maximum(jnp.abs(t + h), h)
             controller: Any = ErrorControl(rtol=rtol, atol=atol * scale, smallest=smallest)

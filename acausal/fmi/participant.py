@@ -36,11 +36,20 @@ class Participant(Protocol):
         can_reject: whether `save` and `restore` work.
     """
 
-    inputs: tuple[str, ...]
-    outputs: tuple[str, ...]
-    needs: Mapping[str, int]
-    feedthrough: frozenset[str]
-    can_reject: bool
+    @property
+    def inputs(self) -> tuple[str, ...]: ...
+
+    @property
+    def outputs(self) -> tuple[str, ...]: ...
+
+    @property
+    def needs(self) -> Mapping[str, int]: ...
+
+    @property
+    def feedthrough(self) -> frozenset[str]: ...
+
+    @property
+    def can_reject(self) -> bool: ...
 
     def initialize(self, t0: float, coefficients: Floats) -> None:
         """Put the participant at its start, with these input polynomials."""
@@ -63,7 +72,7 @@ class Participant(Protocol):
         ...
 
     def save(self) -> Any:
-        """The present state, for `restore`."""
+        """The present state, for `restore`; it counts until the next one is saved."""
         ...
 
     def restore(self, state: Any) -> None:

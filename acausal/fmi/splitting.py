@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import itertools
+import os
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Literal
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -21,6 +23,9 @@ from .cutting import INSTANT, Cut, Halves, cut_model
 from .participant import Floats
 from .result import CoSimulationResult
 from .system_participant import PolynomialInput, SystemParticipant
+
+if TYPE_CHECKING:
+    from .fmu_participant import FmuParticipant
 
 Side = Literal["near", "far"]
 
@@ -49,6 +54,9 @@ class Split:
     bonds: tuple[PowerBond, ...]
     polynomials: Mapping[Side, tuple[PolynomialInput, ...]] = field(repr=False)
 
+    def _sides(self) -> tuple[tuple[Side, str, System], tuple[Side, str, System]]:
+        return ("near", self.names[0], self.near), ("far", self.names[1], self.far)
+
     def participant(self, side: Side, *, outputs: Sequence[str] = (), **options: Any) -> SystemParticipant:
         """One side as a participant; `outputs` are recorded too, `options` are those of `SystemParticipant`."""
         system, name = (self.near, self.names[0]) if side == "near" else (self.far, self.names[1])
@@ -76,11 +84,42 @@ class Split:
         """
         given = dict(participants or {})
         made: dict[str, Any] = {}
-        for side, name, system in (("near", self.names[0], self.near), ("far", self.names[1], self.far)):
+        for side, name, system in self._sides():
             known = set(system.stages.flat.names.all_variables)
             wanted = [n for n in record if n in known]
-            made[name] = given.get(name) or self.participant(side, outputs=wanted, solver=solver, dt=dt, rtol=rtol)  # type: ignore[arg-type]
+            made[name] = given.get(name) or self.participant(side, outputs=wanted, solver=solver, dt=dt, rtol=rtol)
         return CoSimulation(made, self.connections, bonds=self.bonds, **options)
+
+    def fmus(
+        self,
+        folder: str | os.PathLike[str],
+        *,
+        version: str = "2.0",
+        outputs: Sequence[str] = (),
+        parameters: Mapping[str, float] | None = None,
+    ) -> dict[str, FmuParticipant]:
+        """Both sides exported as functional mock-up units and loaded, for `cosimulation(participants=...)`.
+
+        Args:
+            folder: where they are written.
+            version: of FMI. Units of 2.0 take the slopes of inputs along, those of 3.0 the means over a step.
+            outputs: names of variables of the whole model to give out.
+            parameters: values by name of the whole model.
+        """
+        from .exporter.export import export
+        from .fmu import load
+
+        made: dict[str, FmuParticipant] = {}
+        for side, name, system in self._sides():
+            known = set(system.stages.flat.names.all_variables)
+            path = export(system, Path(folder) / f"{name}.fmu", version=version, kind="cs")
+            made[name] = load(path).participant(
+                outputs=[n for n in outputs if n in known],
+                parameters={k: v for k, v in (parameters or {}).items() if k in system.parameters},
+                needs={q.name: q.needs for q in self.polynomials[side]},
+                name=name,
+            )
+        return made
 
     @cached_property
     def whole(self) -> System:
@@ -211,6 +250,7 @@ def _choices(cuts: Sequence[Cut], wanted: Side | Mapping[str, Side] | None) -> l
             dict(zip([c.path for c in cuts], combination, strict=True))
             for combination in itertools.product(sides, repeat=len(cuts))
         ]
+    by_path: dict[str, Side]
     by_path = {path_text(c.path): wanted for c in cuts} if isinstance(wanted, str) else dict(wanted)
     missing = [path_text(c.path) for c in cuts if by_path.get(path_text(c.path)) not in sides]
     if missing:
@@ -253,7 +293,7 @@ def _assembled(halves: Halves, near: System, far: System, choice: Mapping[Any, S
             # power of a mechanical bond takes the velocity, whether the equations do or not
             needs = max(needs, 1) if cut.derivative else needs
             polynomials[to].append(PolynomialInput(coefficients[0], coefficients, INSTANT, needs))
-    by_name = {f"{path_text(c.path)}.{c.potentials[0]}": choice[c.path] for c in halves.cuts}
+    by_name: dict[str, Side] = {f"{path_text(c.path)}.{c.potentials[0]}": choice[c.path] for c in halves.cuts}
     return Split(
         halves.model, near, far, names, by_name, tuple(connections), tuple(bonds),
         {k: tuple(v) for k, v in polynomials.items()},

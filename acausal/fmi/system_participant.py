@@ -100,9 +100,13 @@ class SystemParticipant:
         self._orders[output] = max(self._orders[output], min(order, 2))
         return True
 
-    @cached_property
+    @property
     def feedthrough(self) -> frozenset[str]:
         """Outputs that depend on inputs at the same instant, by the structure of the equations."""
+        return self._feedthrough
+
+    @cached_property
+    def _feedthrough(self) -> frozenset[str]:
         low = self.system.lowered
         places = self._places
         found: list[str] = []
