@@ -18,6 +18,8 @@ import numpy as np
 
 from benchmarks.peers import integrators
 from benchmarks.peers.integrators import CvodeProgram, Outcome, Tool
+from benchmarks.peers.methods import NAMES as METHODS
+from benchmarks.peers.methods import Methods
 from benchmarks.results import Section, write
 
 LEVELS = (1e-4, 1e-6, 1e-8)
@@ -58,6 +60,9 @@ def tools(joint: str, cvode: CvodeProgram | None, quick: bool) -> dict[str, tupl
         named[PEER] = lambda: cvode.tool(joint, many), DENSE
     named[OURS] = lambda: native[0], DENSE
     named["native engine, `simulate`"] = lambda: native[1], DENSE
+    methods = Methods(crane)
+    for name in METHODS if methods.cvode else METHODS[:-1]:
+        named[f"{name} on the same C"] = lambda name=name: methods.tool(name, many), DENSE
     named["CasADi CVODES"] = lambda: integrators.casadi_tool(crane, "cvodes", few), MEDIUM
     named["CasADi IDAS"] = lambda: integrators.casadi_tool(crane, "idas", few), MEDIUM
     named["diffrax engine (Rodas5P)"] = lambda: integrators.diffrax_engine(crane, few), MEDIUM
@@ -73,7 +78,7 @@ def measure(
 ) -> tuple[dict[str, Curve], str]:
     """Curves of all tools, and how well the reference is known."""
     crane = integrators.Crane(joint)
-    reference = crane.sorted(crane.system.simulate(20.0, rtol=1e-13, saveat=integrators.GRID).x)
+    reference = crane.sorted(crane.system.simulate(20.0, rtol=1e-13, saveat=integrators.GRID).x)  # with located events
     other = (
         cvode.trajectory(joint, 1e-13)
         if cvode is not None
@@ -136,7 +141,7 @@ def plot(curves: dict[str, dict[str, Curve]]) -> None:
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(
-        1, len(curves), sharey=True, squeeze=False, layout="constrained", figsize=(6.2 * len(curves), 5.4)
+        1, len(curves), sharey=True, squeeze=False, layout="constrained", figsize=(6.8 * len(curves), 6.2)
     )
     for axis, (joint, named) in zip(axes[0], curves.items(), strict=True):
         for name, curve in named.items():
@@ -170,7 +175,8 @@ def main(words: list[str] | None = None) -> int:
             "for `simulate`, initialization are not in it) at equal achieved error, interpolated on each tool's curve. "
             "The error is the root mean square over all states and 401 times, relative to the range of each state; the "
             f"reference is known to {known}. *{PEER}* is the hand-written program with dense BDF, compiled with -O3 "
-            "-march=native. SciPy and scikit-SUNDAE call the compiled vector field and its Jacobian; CasADi has the "
+            "-march=native; *on the same C* are other methods with the compiled equations, Jacobian and factors of the "
+            "native engine (BDF: CVODE with dense factors). SciPy and scikit-SUNDAE call the compiled vector field and its Jacobian; CasADi has the "
             "same equations as expressions in its virtual machine. Tools that do not reach a level have no entry."
         )
         key, command = f"work-precision-{joint}", "python -m benchmarks.work_precision --cvode kbc_cvode.c"
