@@ -62,6 +62,11 @@ class InitialProblem:
     families: list[Family]
     ease: Floats
 
+    @property
+    def all_ease(self) -> Floats:
+        """The same with that of the algebraic unknowns (n_x + n_w,)."""
+        return np.concatenate([self.ease, EASE_ALGEBRAIC * self.lowered.w_nominal])
+
 
 
 def initial_problem(reduced: Reduced, lowered: Lowered, families: list[Family], with_start: Bools) -> InitialProblem:

@@ -110,8 +110,10 @@ class EventIteration:
             g = piece.values(point)[0]
             new = ((g < 0.0) if strict else (g <= 0.0)).astype(float)
             if self.forced:  # what was found to switch may still be on its old side by rounding
-                stays = np.isin(piece.slots, self.forced) & (np.abs(g) <= NOISE * self._scale(piece, point))
-                new[stays] = p[piece.slots[stays]]
+                stays = _among(piece.slots, self.forced)
+                if stays.any():
+                    stays &= np.abs(g) <= NOISE * self._scale(piece, point)
+                    new[stays] = p[piece.slots[stays]]
             changed += self._put(p, piece.slots, new)
         for piece in self.hybrid.floors:
             changed += self._put(p, piece.slots, np.floor(piece.values(point)[0]))
@@ -459,6 +461,16 @@ class EventIteration:
         for piece, a, b in zip(self.hybrid.triggers, now, rest, strict=True):
             changed += self._put(p, piece.slots, (a & ~b).any(axis=0).astype(float))
         return changed
+
+
+def _among(slots: Any, some: list[int]) -> Any:
+    """Mask of the slots that are among some, of which there are mostly few."""
+    if len(some) > 8:
+        return np.isin(slots, some)
+    mask = np.zeros(len(slots), bool)
+    for slot in some:
+        mask |= slots == slot
+    return mask
 
 
 def left_starts(hybrid: Hybrid) -> list[tuple[Piece, Any, Any]]:

@@ -16,7 +16,7 @@ from acausal.errors import InitializationError
 from acausal.language.template import Ints
 from acausal.lowering.bounds import check_parameters
 from acausal.lowering.c.generate import CSource, to_c
-from acausal.lowering.initial import EASE_ALGEBRAIC, given_starts
+from acausal.lowering.initial import EASE_ALGEBRAIC, SATISFIED, given_starts
 from acausal.lowering.initial_numeric import conditions_of, least_change, solve_numeric
 from acausal.lowering.numeric import NumericRun
 from acausal.symbolic.traverse import postorder
@@ -146,6 +146,12 @@ class NativeModel:
         own = not self.large and _own_conditions(problem, overrides)
 
         def solve(p: Floats) -> tuple[Floats, Floats]:
+            if own and problem.lowered.n_x + problem.lowered.n_w:
+                given_at = given_starts(problem, starts, overrides, np)
+                z = np.concatenate([given_at.x, given_at.w])
+                left = library.start(p, t0, given_at.fixed, problem.all_ease, given_at.wanted, z)
+                if left <= SATISFIED:
+                    return z, np.array([left])
             conditions = (lambda z: library.conditions(p, t0, z)) if own else None
             found = solve_numeric(problem, t0, p, starts, overrides, conditions)
             if found is None:

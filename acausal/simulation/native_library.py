@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from ctypes import POINTER, byref, c_double, c_int, c_long, c_ubyte, c_void_p
+from ctypes import POINTER, byref, c_double, c_int, c_long, c_void_p
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,7 @@ from acausal.errors import AcausalError
 from .watch import CALLBACK, watch
 
 Floats = NDArray[np.float64]
-_P = POINTER(c_double)
+_P = c_void_p
 
 Signal = tuple[Floats, Floats]
 """An input over time: times (n,) and values (n,); one point is a constant."""
@@ -46,7 +46,7 @@ class _Problem(ctypes.Structure):
         ("dz_out", _P), ("z_end", _P), ("dz_end", _P), ("t_end", c_double), ("steps", c_long), ("accepted", c_long),
         ("rejected", c_long), ("pivoted", c_long), ("saved", c_long), ("watch", CALLBACK),
         ("watched", c_long), ("located", c_int),
-        ("open", c_int), ("step", c_double), ("switched", POINTER(c_int)),
+        ("open", c_int), ("step", c_double), ("switched", c_void_p),
     )  # fmt: skip
 
 
@@ -115,6 +115,8 @@ class NativeLibrary:
         lib.acausal_parameters.argtypes = (c_void_p, _P)
         lib.acausal_starts.argtypes = (_P, _P)
         lib.acausal_conditions.argtypes = (_P, c_double, _P, _P, _P)
+        lib.acausal_start.argtypes = (_P, c_double, c_void_p, _P, _P, c_int, _P)
+        lib.acausal_start.restype = c_double
         for name in ("parameters", "starts", "conditions"):
             getattr(lib, f"acausal_{name}").restype = None
         if tangents:
@@ -127,7 +129,7 @@ class NativeLibrary:
     # ---- parameters and start ---------------------------------------------------------------------
     def parameters(self, given: NDArray[np.uint8], p: Floats) -> None:
         """Dependent parameters in place, except those that are `given` (a mask)."""
-        self.library.acausal_parameters(given.ctypes.data_as(POINTER(c_ubyte)), _of(p))
+        self.library.acausal_parameters(_of(given), _of(p))
 
     def starts(self, p: Floats, starts: Floats) -> None:
         """Start values that depend on parameters, in place."""
@@ -141,9 +143,29 @@ class NativeLibrary:
         matrix[self.start_rows, self.start_columns] = entries
         return value, matrix
 
+    def start(
+        self, p: Floats, t: float, fixed: NDArray[np.bool_], ease: Floats, wanted: Floats, z: Floats
+    ) -> float:
+        """A consistent start from the start values z (n,), in place; the largest relative residual left.
+
+        Args:
+            p: parameters (n_p,).
+            t: start time [s].
+            fixed: mask of the states (n_x,) that keep their start values.
+            ease: scale in which a variable is moved (n,).
+            wanted: values of the variables whose start is a condition.
+            z: start values.
+        """
+        left = float(
+            self.library.acausal_start(_of(p), t, _of(fixed), _of(ease), _of(wanted), len(wanted), _of(z))
+        )
+        if left < 0.0:
+            raise MemoryError("no memory for the start")
+        return left
+
     def parameters_tangent(self, given: NDArray[np.uint8], p: Floats, dp: Floats) -> None:
         """Tangents (n_p, lanes) of dependent parameters, in place."""
-        self.library.acausal_parameters_tangent(given.ctypes.data_as(POINTER(c_ubyte)), _of(p), _of(dp))
+        self.library.acausal_parameters_tangent(_of(given), _of(p), _of(dp))
 
     def starts_tangent(self, p: Floats, dp: Floats, ds: Floats) -> None:
         """Tangents of start values, in place."""
@@ -190,7 +212,7 @@ class NativeLibrary:
             save=_of(keep[2]), z_out=_of(z), z_end=_of(z_end), t_end=t0, located=located, open=end_open,
         )  # fmt: skip
         switched = np.zeros(max(self.n_roots, 1), np.int32)
-        problem.switched = switched.ctypes.data_as(POINTER(c_int))
+        problem.switched = _of(switched)
         held = _signals(signals)
         problem.signals = held[0]
         problem.index = ctypes.addressof(self.index)
@@ -224,8 +246,9 @@ class NativeLibrary:
         return out
 
 
-def _of(array: Floats) -> Any:
-    return array.ctypes.data_as(_P)
+def _of(array: NDArray[Any]) -> int:
+    """The address; whoever passes it on keeps the array alive meanwhile."""
+    return array.ctypes.data
 
 
 def _signals(signals: Sequence[Signal]) -> tuple[Any, Any]:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..initial import InitialProblem
     from ..parameters import ParameterProgram
 
-RUNTIME = ("acausal.h", "solver.h", "events.h", "explicit.h", "projection.h", "families.h")
+RUNTIME = ("acausal.h", "solver.h", "events.h", "explicit.h", "projection.h", "families.h", "initialize.h", "start.h")
 TANGENTS = "AC_TANGENTS"
 
 
@@ -305,7 +305,7 @@ class _Small:
         parts = [
             *head, '#include "acausal.h"', *arrays, *tableau_lines(), *self.parameters(False), constants, *functions,
             *factor, f"#ifdef {TANGENTS}", *self.parameters(True), constants_tangent, *tangents, along,
-            "#endif", '#include "solver.h"',
+            "#endif", '#include "solver.h"', '#include "start.h"',
         ]  # fmt: skip
         return "\n".join(parts) + "\n"
 
