@@ -3,7 +3,23 @@
 from __future__ import annotations
 
 import acausal as ac
-from acausal import Array, Component, Equations, Input, Output, Parameter, Variable, der
+from acausal import (
+    Array,
+    Component,
+    Discrete,
+    Equations,
+    Input,
+    Output,
+    Parameter,
+    Variable,
+    assert_,
+    der,
+    pre,
+    reinit,
+    sample,
+    terminate,
+    when,
+)
 
 
 class Oscillator(Component):
@@ -112,3 +128,115 @@ class Explodes(Component):
 
     def equations(self) -> Equations:
         yield der(self.x) == self.x**2
+
+
+class Ball(Component):
+    """A ball that bounces and counts: a state event with a jump, and a discrete variable."""
+
+    h: Variable = Variable(unit="m", start=1.0, fixed=True)
+    v: Variable = Variable(unit="m/s", start=0.0, fixed=True)
+    e: Parameter = Parameter(0.7)
+    g: Parameter = Parameter(9.81, unit="m/s2")
+    bounces: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield der(self.h) == self.v
+        yield der(self.v) == -self.g
+        yield when(self.h < 0, reinit(self.v, -self.e * pre(self.v)), {self.bounces: pre(self.bounces) + 1})
+
+
+class Thermostat(Component):
+    """A heater with two thresholds; the input warms, too."""
+
+    T: Variable = Variable(start=15.0, fixed=True, nominal=20.0)
+    u: Input = Input(start=0.0)
+    on: Discrete = Discrete(start=1.0)
+    low: Parameter = Parameter(18.0)
+    high: Parameter = Parameter(22.0)
+
+    def equations(self) -> Equations:
+        yield der(self.T) == ac.where(self.on > 0.5, 2.0, 0.0) - 0.1 * (self.T - 10.0) + self.u
+        yield when(self.T > self.high, {self.on: 0.0}).elsewhen(self.T < self.low, {self.on: 1.0})
+
+
+class Sampled(Component):
+    """A sampled controller: events by the time, also at the start."""
+
+    x: Variable = Variable(start=1.0, fixed=True)
+    u: Discrete = Discrete(start=0.0)
+    k: Parameter = Parameter(2.0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.u - 0.1 * self.x
+        yield when(sample(0.0, 0.25), {self.u: -self.k * self.x})
+
+
+class Rectifier(Component):
+    """An ideal diode: its mode and the algebraic equations decide each other."""
+
+    R: Parameter = Parameter(2.0)
+    C: Parameter = Parameter(0.5)
+    s: Variable = Variable()
+    i: Variable = Variable()
+    v: Variable = Variable(start=0.2, fixed=True)
+    vd: Variable = Variable()
+
+    def equations(self) -> Equations:
+        off = self.s < 0
+        yield self.vd == ac.where(off, self.s, 1e-3 * self.s)
+        yield self.i == ac.where(off, 1e-3 * self.s, self.s)
+        yield ac.sin(5 * ac.time) == self.R * self.i + self.vd + self.v
+        yield self.C * der(self.v) == self.i - 0.1 * self.v
+
+
+class Wall(Component):
+    """A Cartesian pendulum that swings against a wall: a jump of velocities with retained constraints."""
+
+    L: Parameter = Parameter(1.0)
+    x: Variable = Variable(start=0.8, fixed=True)
+    y: Variable = Variable(start=-0.6)
+    vx: Variable = Variable(start=0.0, fixed=True)
+    vy: Variable = Variable()
+    tension: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.vx
+        yield der(self.y) == self.vy
+        yield der(self.vx) == -self.tension * self.x
+        yield der(self.vy) == -self.tension * self.y - 9.81
+        yield self.x**2 + self.y**2 == self.L**2
+        yield when(self.x < -0.2, reinit(self.vx, -0.8 * pre(self.vx)))
+
+
+class Rounded(Component):
+    """Rounding in an equation."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    y: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1.0 - 0.2 * self.y
+        yield self.y == ac.floor(2.0 * self.x)
+
+
+class Ends(Component):
+    """Warns, and ends the simulation."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    last: Discrete = Discrete(start=0.0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1.0
+        yield assert_(self.x < 0.5, "x is large", level="warning")
+        yield when(self.x > 0.8, terminate("x has reached 0.8"))
+        yield when(ac.terminal(), {self.last: self.x})
+
+
+class Breaks(Component):
+    """An assertion fails at t = 0.5."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1.0
+        yield assert_(self.x < 0.5, "100 % is too much")

@@ -70,15 +70,21 @@ class Unit:
         """A function by its name without prefix."""
         return getattr(self.library, f"fmi{self.version[0]}{name}")
 
-    def instance(self, kind: str = "cs", token: bytes | None = None, name: bytes | None = b"one") -> Instance:
-        """A new instance."""
-        return Instance(self, kind, self.token if token is None else token, name)
+    def instance(
+        self,
+        kind: str = "cs",
+        token: bytes | None = None,
+        name: bytes | None = b"one",
+        flags: tuple[bool, bool] = (False, False),
+    ) -> Instance:
+        """A new instance; `flags`: event mode used and early return allowed, in co-simulation of FMI 3.0."""
+        return Instance(self, kind, self.token if token is None else token, name, flags)
 
 
 class Instance:
     """An instance; `messages` are (status, text)."""
 
-    def __init__(self, unit: Unit, kind: str, token: bytes, name: bytes | None) -> None:
+    def __init__(self, unit: Unit, kind: str, token: bytes, name: bytes | None, flags: tuple[bool, bool]) -> None:
         self.unit, self.kind, self.version = unit, kind, unit.version
         self.messages: list[tuple[int, str]] = []
         if self.version == "2.0":
@@ -93,7 +99,7 @@ class Instance:
             self.logger = LOGGER["3.0"](lambda _, status, __, text: self._note(status, text))
             new = unit.function({"cs": "InstantiateCoSimulation", "me": "InstantiateModelExchange"}[kind])
             new.restype = c_void_p
-            more = (c_bool(False), c_bool(False), None, c_size_t(0)) if kind == "cs" else ()
+            more = (*(c_bool(b) for b in flags), None, c_size_t(0)) if kind == "cs" else ()
             last = (None,) if kind == "cs" else ()
             self.pointer = c_void_p(
                 new(name, token, None, c_bool(False), c_bool(False), *more, None, self.logger, *last)

@@ -27,6 +27,7 @@ class Description:
         table: all variables; the position is the value reference.
         kinds: ``me``, ``cs``.
         sources: C files that are compiled.
+        indicators: number of event indicators.
         stop: end of the default experiment [s].
         tolerance: relative, of the default experiment.
         step: step of the default experiment [s].
@@ -40,6 +41,7 @@ class Description:
     dependence: Dependence
     kinds: Sequence[str]
     sources: Sequence[str]
+    indicators: int
     stop: float
     tolerance: float
     step: float
@@ -97,7 +99,7 @@ def _numbers(v: FmuVariable) -> dict[str, str]:
 # ---- FMI 2.0 --------------------------------------------------------------------------------------
 def _fmi2(d: Description) -> Element:
     root = _root(d, "2.0", "guid")
-    root.set("numberOfEventIndicators", "0")
+    root.set("numberOfEventIndicators", str(d.indicators))
     abilities = {
         "modelIdentifier": d.identifier, "canNotUseMemoryManagementFunctions": "true", "canGetAndSetFMUstate": "true",
         "canSerializeFMUstate": "true", "providesDirectionalDerivative": "true",
@@ -150,7 +152,10 @@ def _fmi3(d: Description) -> Element:
     if "me" in d.kinds:
         SubElement(root, "ModelExchange", {**abilities, "needsCompletedIntegratorStep": "true"})
     if "cs" in d.kinds:
-        more = {"canHandleVariableCommunicationStepSize": "true", "maxOutputDerivativeOrder": "1"}
+        more = {
+            "canHandleVariableCommunicationStepSize": "true", "maxOutputDerivativeOrder": "1",
+            "mightReturnEarlyFromDoStep": "true", "hasEventMode": "true",
+        }  # fmt: skip
         SubElement(root, "CoSimulation", {**abilities, **more})
     _common(root, d)
     variables = SubElement(root, "ModelVariables")
@@ -166,8 +171,13 @@ def _fmi3(d: Description) -> Element:
             SubElement(entry, "Alias", {"name": name} | ({"description": text} if text else {}))
     structure = SubElement(root, "ModelStructure")
     tags = {"Outputs": "Output", "Derivatives": "ContinuousStateDerivative", "InitialUnknowns": "InitialUnknown"}
-    for tag, rows in _structure(d).items():
-        for reference, knowns in rows:
+    rows = _structure(d)
+    tags["Indicators"] = "EventIndicator"
+    first = next((k for k, v in enumerate(d.table) if v.place is Place.INDICATOR), 0)
+    known = _knowns(d)
+    rows["Indicators"] = [(first + k, sorted(known[i] for i in ids)) for k, ids in enumerate(d.dependence.roots)]
+    for tag, entries in rows.items():
+        for reference, knowns in entries:
             text = " ".join(str(k) for k in knowns)
             SubElement(structure, tags[tag], valueReference=str(reference), dependencies=text)
     return root
@@ -178,10 +188,7 @@ def _structure(d: Description) -> dict[str, list[tuple[int, list[int]]]]:
     outputs = [k for k, v in enumerate(d.table) if v.causality == "output"]
     slopes = [k for k, v in enumerate(d.table) if v.place is Place.DERIVATIVE]
     states = [k for v in d.table if (k := v.derivative_of) is not None]
-    inputs = [k for k, v in enumerate(d.table) if v.place is Place.INPUT]
-    time = next(k for k, v in enumerate(d.table) if v.place is Place.TIME)
-    parameters = [k for k, v in enumerate(d.table) if v.place in (Place.PARAMETER, Place.CALCULATED)]
-    knowns = [*states, *inputs, time, *parameters]
+    knowns = _knowns(d)
 
     def number(v: FmuVariable) -> int:
         return d.dependence.slopes[v.index] if v.place is Place.DERIVATIVE else v.index
@@ -206,6 +213,15 @@ def _structure(d: Description) -> dict[str, list[tuple[int, list[int]]]]:
         "Outputs": [(k, depends(k)) for k in outputs], "Derivatives": [(k, depends(k)) for k in slopes],
         "InitialUnknowns": [(k, depends_at_start(k)) for k in initial],
     }  # fmt: skip
+
+
+def _knowns(d: Description) -> list[int]:
+    """Value references of the knowns as `Dependence` numbers them."""
+    states = [k for v in d.table if (k := v.derivative_of) is not None]
+    inputs = [k for k, v in enumerate(d.table) if v.place is Place.INPUT]
+    time = next(k for k, v in enumerate(d.table) if v.place is Place.TIME)
+    parameters = [k for k, v in enumerate(d.table) if v.place in (Place.PARAMETER, Place.CALCULATED)]
+    return [*states, *inputs, time, *parameters]
 
 
 def build_description(identifier: str, source: str) -> str:

@@ -59,7 +59,7 @@ def export(
         NotInC: the model calls Python functions.
         NoCompiler: there is no C compiler on this machine.
     """
-    place = Path(path)
+    place, system = Path(path), system.located
     kinds = _checked(version, kind)
     targets = (this_platform(),) if platforms is None else tuple(platforms)
     identifier = re.sub(r"\W", "_", place.stem, flags=re.ASCII)
@@ -73,7 +73,7 @@ def export(
     main = f"fmi{version[0]}.c"
     description = Description(
         system.name, identifier, _token(code, fixed, identifier), _summary(system), table, Dependence(system), kinds,
-        (main,), stop, tolerance, step,
+        (main,), system.hybrid.roots.count if system.hybrid is not None else 0, stop, tolerance, step,
     )  # fmt: skip
     sources = fixed | {"equations.c": f'#define FMU_TOKEN "{description.token}"\n{code}'}
     members: dict[str, str | bytes] = {"modelDescription.xml": write(description, version)}

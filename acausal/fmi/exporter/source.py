@@ -11,6 +11,7 @@ import numpy as np
 from ...lowering.c.generate import runtime_files, to_c
 from ...lowering.c.text import array
 from ...lowering.initial import EASE_ALGEBRAIC
+from .events import event_families, event_tables
 from .variables import ExportError, FmuVariable, Place, Starts
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 LARGEST = 20_000
 """Operations up to which a model is written out in C."""
-FIXED = ("instance.h", "advance.h", "directional.h")
+FIXED = ("instance.h", "hybrid.h", "values.h", "advance.h", "directional.h")
 MORE_RUNTIME = ("initialize.h", "stepping.h")
 KINDS = ("me", "cs")
 
@@ -43,7 +44,9 @@ def equations(system: System) -> str:
     def label(v: int) -> str:
         return flat.name(v) if v < flat.n_total else ""
 
-    return to_c(system.program, system.initial, label, observe_tangent=True).text
+    roots = None if system.hybrid is None else system.hybrid.roots
+    further = {"ac_event_values": event_families(system.hybrid)}
+    return to_c(system.program, system.initial, label, roots=roots, further=further, observe_tangent=True).text
 
 
 def tables(system: System, table: Sequence[FmuVariable], kinds: Sequence[str]) -> str:
@@ -60,7 +63,7 @@ def tables(system: System, table: Sequence[FmuVariable], kinds: Sequence[str]) -
     ease = np.concatenate([system.initial.ease, EASE_ALGEBRAIC * low.w_nominal])
     lines = [
         f"#define AC_NS {len(flat.start)}", f"#define FMU_VARIABLES {len(table)}",
-        f"#define FMU_STARTS {len(starts.ids)}", f"#define FMU_WANTED {wanted}", "#define FMU_INDICATORS 0",
+        f"#define FMU_STARTS {len(starts.ids)}", f"#define FMU_WANTED {wanted}",
         f"#define FMU_KINDS {mask}", f'#define FMU_NAME "{system.name}"',
         array("unsigned char", "fmu_kind", [int(v.place) for v in table]),
         array("int", "fmu_index", [v.index for v in table]),
@@ -78,6 +81,7 @@ def tables(system: System, table: Sequence[FmuVariable], kinds: Sequence[str]) -
         array("signed char", "fmu_start_sign", starts.sign.tolist()),
         array("unsigned char", "fmu_fixed", starts.fixed.astype(int).tolist()),
         array("double", "fmu_ease", ease.tolist()),
+        *event_tables(system),
     ]  # fmt: skip
     return "\n".join(lines) + "\n"
 

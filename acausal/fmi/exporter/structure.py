@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from ...lowering.c.straight import Straight, write_out
+from ...lowering.c.straight import Straight, family_residuals, write_out
 from ...symbolic.expr import Expr
 from ...symbolic.traverse import postorder
 from .variables import Starts
@@ -22,6 +22,7 @@ class Dependence:
         parameters: bits of every parameter, those of dependent ones being what they depend on.
         starts: bits of the start value of every state: of a fixed one itself, of one that is computed its parameters;
             one that the initialization may move depends on all that is known then.
+        roots: what each event indicator depends on, as `of`.
     """
 
     def __init__(self, system: System) -> None:
@@ -37,6 +38,9 @@ class Dependence:
         self.variables = {v: bits[id(e)] for v, e in known.items()}
         self.slopes = [int(i) for i in low.dx_ids]
         self.starts = self._starts(system)
+        forms = [] if system.hybrid is None else family_residuals(self.straight, system.hybrid.roots.families)
+        bits = self._bits(forms)
+        self.roots = [self._in_run(bits[id(e)]) for e in forms]
 
     def _parameters(self, system: System) -> list[int]:
         first = self.n_x + self.n_u + 1
@@ -105,7 +109,9 @@ class Dependence:
 
     def of(self, variable: int) -> list[int]:
         """Knowns of a variable in a run: numbers of states, n_x + number of an input, n_x + n_u for time."""
-        bits = self.variables[variable]
+        return self._in_run(self.variables[variable])
+
+    def _in_run(self, bits: int) -> list[int]:
         return [k for k in range(self.n_x + self.n_u + 1) if bits >> k & 1]
 
     def at_start(self, bits: int) -> list[int]:

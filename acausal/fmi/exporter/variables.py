@@ -14,6 +14,7 @@ from ...errors import AcausalError
 from ...language.declarations import Kind
 
 if TYPE_CHECKING:
+    from ...lowering.hybrid import Hybrid
     from ...system import System
 
 
@@ -31,6 +32,7 @@ class Place(IntEnum):
     VARIABLE = 4
     DERIVATIVE = 5
     ZERO = 6
+    INDICATOR = 7
 
 
 @dataclass(slots=True, eq=False)
@@ -65,6 +67,8 @@ class FmuVariable:
     aliases: list[tuple[str, str]] = field(default_factory=list[tuple[str, str]])
 
 
+INDICATORS = "_event_indicators"
+"""Name of the array of event indicators."""
 STRUCTURED = re.compile(r"(?:der\()?[A-Za-z_]\w*(?:\[\d+\])?(?:\.[A-Za-z_]\w*(?:\[\d+\])?)*\)?", re.ASCII)
 """Names of the structured naming convention, as far as they occur here."""
 
@@ -119,7 +123,16 @@ def collect(system: System, version: str) -> list[FmuVariable]:
         slope = FmuVariable(f"der({table[of].name})", Place.DERIVATIVE, i, 1, "local", derivative_of=of)
         slope.unit, slope.description = _per_second(table[of].unit), f"time derivative of {table[of].name}"
         table.append(slope)
+    if version == "3.0" and system.hybrid is not None:
+        table += list(_indicators(system.hybrid))
     return table
+
+
+def _indicators(hybrid: Hybrid) -> Iterator[FmuVariable]:
+    """Event indicators, which FMI 3.0 has among the variables."""
+    for k, slot in enumerate(hybrid.roots.slots.tolist()):
+        text = hybrid.flat.slot_text(slot) if slot >= 0 else "a number is rounded"
+        yield FmuVariable(f"{INDICATORS}[{k}]", Place.INDICATOR, k, 1, "local", description=f"event: {text}")
 
 
 def _state_reference(table: list[FmuVariable], state: int, name: str) -> int:
@@ -191,6 +204,7 @@ def _entry(system: System, starts: Starts, v: int, entry: FmuVariable) -> FmuVar
     declaration: Any = flat.names.declaration(v)
     entry.unit, entry.description = declaration.unit, declaration.doc
     entry.minimum, entry.maximum = declaration.min, declaration.max
+    entry.variability = "discrete" if declaration.kind is Kind.DISCRETE else "continuous"
     state = np.flatnonzero(starts.ids[: starts.n_x] == entry.index)
     if len(state) and entry.sign == 1 and entry.place is Place.VARIABLE:
         entry.nominal = float(system.lowered.x_nominal[state[0]])

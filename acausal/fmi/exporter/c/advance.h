@@ -1,5 +1,7 @@
 /* One instance in time: initialization, communication steps, retained constraints, saved states. */
 
+#define FMU_CLOSE_EVENTS 200 /* events in a row without time passing */
+
 /* The call is refused unless the instance is in one of the modes of a mask. */
 static int fmu_refuse(const fmu_instance *f, const char *function, int modes) {
     static const char *const name[] = {"instantiated", "initialization mode", "event mode", "continuous-time mode",
@@ -42,41 +44,108 @@ static int fmu_setup(fmu_instance *f, int tolerance_defined, double tolerance, d
 
 static int fmu_exit_initialization(fmu_instance *f) {
     const int status = fmu_slopes(f);
-    if (status == FMU_OK) f->s.mode = f->kind == FMU_CO_SIMULATION ? FMU_STEP : FMU_EVENT;
+    if (status != FMU_OK) return status;
+    f->s.mode = f->kind == FMU_CO_SIMULATION && !f->event_mode ? FMU_STEP : FMU_EVENT;
+    f->s.touched = f->s.event_due = 0;
+    return FMU_OK;
+}
+
+static int fmu_terminate(fmu_instance *f) {
+    const int status = FMU_TERMINAL >= 0 && f->s.mode != FMU_FAILED ? fmu_event(f, NULL, 0, 1) : FMU_OK;
+    f->s.mode = FMU_TERMINATED;
     return status;
 }
 
-/* From the time of the instance to t1; stops early where the solver fails. */
-static int fmu_do_step(fmu_instance *f, double t, double h) {
-    const double close = 1e-9 * ac_max(fabs(t), ac_max(fabs(h), 1e-6));
-    if (!(fabs(t - f->s.t) <= close) || !(h >= 0.0) || h - h != 0.0) {
-        fmu_say(f, FMU_ERROR, "a step of %.9g s at t = %.9g s is not possible: the instance is at t = %.9g s", h, t, f->s.t);
-        return FMU_ERROR;
-    }
-    const double t1 = t + h;
-    if (AC_N > AC_NX) {
-        const int status = fmu_slopes(f);
-        if (status != FMU_OK) return status;
-    }
-    if (!(t1 > f->s.t)) return FMU_OK;
+/* Integrates to `stop`, or to the first event before it: AC_DONE, AC_EVENT or why it failed. */
+static int fmu_integrate(fmu_instance *f, double stop) {
     ac_work *w = fmu_prepare(f);
     ac_problem q;
     memset(&q, 0, sizeof q);
-    q.t0 = q.t_end = f->s.t, q.t1 = t1, q.rtol = f->s.rtol, q.atol = f->atol, q.max_steps = FMU_MAX_STEPS;
-    q.smallest = 1e-14 * ac_max(fabs(t1), h);
+    q.t0 = q.t_end = f->s.t, q.t1 = stop, q.rtol = f->s.rtol, q.atol = f->atol, q.max_steps = FMU_MAX_STEPS;
+    q.smallest = 1e-14 * ac_max(fabs(stop), stop - f->s.t);
+    q.located = 1, q.switched = f->switched;
     for (int i = 0; i < AC_N; i++) f->atol[i] = 0.1 * f->s.rtol * ac_nominal[i];
     memcpy(w->z, f->s.z, sizeof w->z);
     const int result = AC_N > 0 ? ac_advance(&q, w, &f->s.control) : AC_DONE;
     memcpy(f->s.z, w->z, sizeof w->z);
-    f->s.t = result == AC_DONE ? t1 : q.t_end;
+    f->s.t = result == AC_DONE ? stop : q.t_end;
     fmu_forget(f);
     f->algebraic_known = 1; /* they are part of the solution */
-    if (result == AC_DONE) return FMU_OK;
+    return result;
+}
+
+static int fmu_failed(fmu_instance *f, int result, double t1) {
     static const char *const why[] = {"", "too many steps", "the step size became too small", "a singular Jacobian"};
     fmu_say(f, FMU_DISCARD, "the solver stopped at t = %.9g s on the way to %.9g s: %s", f->s.t, t1,
             why[result <= AC_SINGULAR ? result : 0]);
     f->s.mode = FMU_FAILED;
     return FMU_DISCARD;
+}
+
+/* Whether the model has an event between now and t1, by the time; then t1 becomes its time. */
+static int fmu_before_sample(fmu_instance *f, double *t1) {
+    if (FMU_SAMPLES == 0) return 0;
+    fmu_event_values(f);
+    const double next = fmu_next_sample(f, f->s.t, 0);
+    if (!(next <= *t1 + 0.5e-9 * f->due_interval)) return 0;
+    *t1 = ac_min(next, *t1);
+    return 1;
+}
+
+/* Conditions that what was set has switched. */
+static int fmu_react(fmu_instance *f) {
+    if (FMU_HYBRID == 0 || !f->s.touched) return FMU_OK;
+    f->s.touched = 0;
+    return fmu_disagreeing(f, f->switched) ? fmu_event(f, f->switched, 0, 0) : FMU_OK;
+}
+
+/* Events so close together that time does not pass. */
+static int fmu_chatters(fmu_instance *f, double since, double h, int *close) {
+    *close = f->s.t - since < 1e-10 * h ? *close + 1 : 0;
+    if (*close <= FMU_CLOSE_EVENTS) return 0;
+    fmu_say_slots(f, "a condition chatters: it switches again as soon as it has switched:");
+    return 1;
+}
+
+/* To t1, from event to event. *early: the step ended at an event before t1; *due: the event is left to event mode. */
+static int fmu_stretches(fmu_instance *f, double t1, int *early, int *due) {
+    const double h = t1 - f->s.t;
+    for (int close = 0; f->s.t < t1 && !f->s.ended;) {
+        double stop = t1;
+        const double since = f->s.t;
+        const int sampled = fmu_before_sample(f, &stop), result = fmu_integrate(f, stop);
+        if (result != AC_DONE && result != AC_EVENT) return fmu_failed(f, result, t1);
+        const int event = result == AC_EVENT || sampled;
+        *early = event && f->s.t < t1 && f->early_return;
+        if (event && f->event_mode && (*early || f->s.t >= t1)) {
+            *due = 1;
+            return FMU_OK;
+        }
+        int status = FMU_OK;
+        if (event) status = fmu_event(f, result == AC_EVENT ? f->switched : NULL, result == AC_DONE, 0);
+        else if (FMU_ASSERTS > 0) fmu_event_values(f), status = fmu_assert(f);
+        if (status == FMU_OK && event && fmu_chatters(f, since, h, &close)) status = FMU_DISCARD;
+        if (status != FMU_OK) f->s.mode = FMU_FAILED;
+        if (status != FMU_OK || *early) return status;
+    }
+    return FMU_OK;
+}
+
+/* One communication step. */
+static int fmu_do_step(fmu_instance *f, double t, double h, int *early, int *due) {
+    const double close = 1e-9 * ac_max(fabs(t), ac_max(fabs(h), 1e-6));
+    *early = *due = 0;
+    if (!(fabs(t - f->s.t) <= close) || !(h >= 0.0) || h - h != 0.0) {
+        fmu_say(f, FMU_ERROR, "a step of %.9g s at t = %.9g s is not possible: the instance is at t = %.9g s", h, t, f->s.t);
+        return FMU_ERROR;
+    }
+    if (f->s.ended) {
+        fmu_say(f, FMU_ERROR, "no step is possible: the model has ended the simulation at t = %.9g s", f->s.t);
+        return FMU_ERROR;
+    }
+    int status = AC_N > AC_NX ? fmu_slopes(f) : FMU_OK;
+    if (status == FMU_OK) status = fmu_react(f);
+    return status == FMU_OK ? fmu_stretches(f, t + h, early, due) : status;
 }
 
 /* Whether the states have left the retained constraints further than the tolerance allows; they are put back if asked. */
@@ -99,12 +168,24 @@ static int fmu_restore(fmu_instance *f, int put_back) {
 #endif
 }
 
-/* Event mode: nothing happens but that states go back onto retained constraints. 1 if states have changed. */
-static int fmu_update(fmu_instance *f) {
-    if (!f->s.drifted) return 0;
-    f->s.drifted = 0;
-    fmu_restore(f, 1);
-    return 1;
+/* Event mode: *changed tells whether states have new values, *next the time of the next event known, or infinity. */
+static int fmu_update(fmu_instance *f, int *changed, double *next) {
+    int status = FMU_OK;
+    double before[AC_N + 1];
+    memcpy(before, f->s.z, sizeof before);
+    if (f->s.drifted) fmu_restore(f, 1);
+    if (FMU_HYBRID > 0 && (f->s.event_due || f->s.touched)) {
+        const int switched = fmu_disagreeing(f, f->switched), sampled = FMU_SAMPLES > 0 && fmu_sample_is_due(f);
+        if (switched || sampled) status = fmu_event(f, switched ? f->switched : NULL, sampled, 0);
+    }
+    f->s.drifted = f->s.event_due = f->s.touched = 0;
+    *changed = memcmp(before, f->s.z, sizeof(double) * AC_NX) != 0;
+    *next = INFINITY;
+    if (FMU_SAMPLES > 0) {
+        fmu_event_values(f);
+        *next = fmu_next_sample(f, f->s.t, 0);
+    }
+    return status;
 }
 
 /* ---- saved states -------------------------------------------------------------------------------- */
@@ -235,8 +316,20 @@ static int fmu_get_nominals(const fmu_instance *f, double *nominals, size_t n) {
     return FMU_OK;
 }
 
-/* The model has no state events. */
-static int fmu_get_indicators(const fmu_instance *f, double *indicators, size_t n) {
-    (void)indicators;
-    return fmu_refuse_size(f, n, FMU_INDICATORS, "event indicators") ? FMU_ERROR : FMU_OK;
+static int fmu_get_indicators(fmu_instance *f, double *indicators, size_t n) {
+    if (fmu_refuse_size(f, n, AC_NR, "event indicators")) return FMU_ERROR;
+    const int status = AC_NR > 0 ? fmu_slopes(f) : FMU_OK;
+    if (status != FMU_OK || AC_NR == 0) return status;
+    fmu_event_values(f);
+    for (int k = 0; k < AC_NR; k++) indicators[k] = fmu_indicator(f, k);
+    return FMU_OK;
+}
+
+/* Assertions at the end of an importer's step. */
+static int fmu_check(fmu_instance *f) {
+    if (FMU_ASSERTS == 0) return FMU_OK;
+    const int status = fmu_slopes(f);
+    if (status != FMU_OK) return status;
+    fmu_event_values(f);
+    return fmu_assert(f);
 }

@@ -86,6 +86,17 @@ static double fmu_tangent_of(const fmu_instance *f, unsigned reference) {
     return f->dp[i][0];
 }
 
+/* Whether one of the variables is unknown, or has no derivatives. */
+static int fmu_refuse_unknowns(const fmu_instance *f, size_t n, const unsigned *references) {
+    for (size_t k = 0; k < n; k++) {
+        if (fmu_unknown(f, references[k])) return 1;
+        if (fmu_kind[references[k]] != FMU_INDICATOR) continue;
+        fmu_say(f, FMU_ERROR, "the event indicator with value reference %u has no derivatives", references[k]);
+        return 1;
+    }
+    return 0;
+}
+
 static void fmu_no_direction(fmu_instance *f) {
     memset(f->dp, 0, sizeof f->dp);
     memset(f->dz, 0, sizeof f->dz);
@@ -96,8 +107,7 @@ static int fmu_directional(
     fmu_instance *f, const unsigned *unknowns, size_t n_unknown, const unsigned *knowns, size_t n_known,
     const double *seed, double *sensitivity) {
     double dt = 0.0;
-    for (size_t k = 0; k < n_unknown; k++)
-        if (fmu_unknown(f, unknowns[k])) return FMU_ERROR;
+    if (fmu_refuse_unknowns(f, n_unknown, unknowns)) return FMU_ERROR;
     const int status = fmu_values(f);
     if (status != FMU_OK) return status;
     fmu_no_direction(f);
@@ -110,8 +120,7 @@ static int fmu_directional(
 
 /* Rates of variables with time, along the solution. */
 static AC_UNUSED int fmu_rates(fmu_instance *f, size_t n, const unsigned *references, double *values) {
-    for (size_t k = 0; k < n; k++)
-        if (fmu_unknown(f, references[k])) return FMU_ERROR;
+    if (fmu_refuse_unknowns(f, n, references)) return FMU_ERROR;
     const int status = fmu_values(f);
     if (status != FMU_OK) return status;
     fmu_no_direction(f);
@@ -126,8 +135,7 @@ static AC_UNUSED int fmu_rates(fmu_instance *f, size_t n, const unsigned *refere
 static AC_UNUSED int fmu_adjoint(
     fmu_instance *f, const unsigned *unknowns, size_t n_unknown, const unsigned *knowns, size_t n_known,
     const double *seed, double *sensitivity) {
-    for (size_t k = 0; k < n_unknown; k++)
-        if (fmu_unknown(f, unknowns[k])) return FMU_ERROR;
+    if (fmu_refuse_unknowns(f, n_unknown, unknowns)) return FMU_ERROR;
     const int status = fmu_values(f);
     if (status != FMU_OK) return status;
     for (size_t k = 0; k < n_known; k++) {

@@ -2,6 +2,8 @@
    standard (sections 3.2.3 and 4.2.4); one that is refused leaves the instance as it is. */
 #include "fmi2_types.h"
 #include "instance.h"
+#include "hybrid.h"
+#include "values.h"
 #include "advance.h"
 #include "directional.h"
 
@@ -85,8 +87,7 @@ FMI2(ExitInitializationMode)(fmi2Component c) {
 
 FMI2(Terminate)(fmi2Component c) {
     NEEDS("Terminate", FMU_INITIALIZED | FMU_FAILED);
-    f->s.mode = FMU_TERMINATED;
-    return fmi2OK;
+    return fmu_terminate(f);
 }
 
 FMI2(Reset)(fmi2Component c) {
@@ -173,6 +174,7 @@ FMI2(DeSerializeFMUstate)(fmi2Component c, const fmi2Byte bytes[], size_t size, 
 FMI2(EnterEventMode)(fmi2Component c) {
     NEEDS_ME("EnterEventMode", FMU_CONTINUOUS);
     f->s.mode = FMU_EVENT;
+    f->s.event_due = 1;
     return fmi2OK;
 }
 
@@ -180,8 +182,14 @@ FMI2(NewDiscreteStates)(fmi2Component c, fmi2EventInfo *info) {
     NEEDS_ME("NewDiscreteStates", FMU_EVENT);
     NEEDS_POINTER("NewDiscreteStates", !info);
     memset(info, 0, sizeof *info);
-    info->valuesOfContinuousStatesChanged = fmu_update(f);
-    return fmi2OK;
+    int changed = 0;
+    double next = INFINITY;
+    const int status = fmu_update(f, &changed, &next);
+    info->valuesOfContinuousStatesChanged = changed;
+    info->terminateSimulation = f->s.ended;
+    info->nextEventTimeDefined = next < INFINITY;
+    if (info->nextEventTimeDefined) info->nextEventTime = next;
+    return status;
 }
 
 FMI2(EnterContinuousTimeMode)(fmi2Component c) {
@@ -197,7 +205,7 @@ FMI2(CompletedIntegratorStep)(
     (void)no_set_prior;
     *terminate = 0;
     *enter_event_mode = f->s.drifted = fmu_restore(f, 0);
-    return fmi2OK;
+    return fmu_check(f);
 }
 
 FMI2(SetTime)(fmi2Component c, fmi2Real time) {
@@ -241,7 +249,9 @@ FMI2(GetNominalsOfContinuousStates)(fmi2Component c, fmi2Real nominals[], size_t
 FMI2(DoStep)(fmi2Component c, fmi2Real t, fmi2Real h, fmi2Boolean no_set_prior) {
     NEEDS_CS("DoStep", FMU_STEP);
     (void)no_set_prior;
-    return fmu_do_step(f, t, h);
+    int early, due;
+    const int status = fmu_do_step(f, t, h, &early, &due);
+    return status == FMU_OK && f->s.ended ? fmi2Discard : (fmi2Status)status;
 }
 
 FMI2(CancelStep)(fmi2Component c) {
@@ -308,7 +318,7 @@ FMI2(GetBooleanStatus)(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *
     NEEDS_CS("GetBooleanStatus", FMU_STEP | FMU_FAILED | FMU_TERMINATED);
     NEEDS_POINTER("GetBooleanStatus", !value);
     if (kind != fmi2Terminated) return no_status(f, "fmi2GetBooleanStatus");
-    *value = 0;
+    *value = f->s.ended;
     return fmi2OK;
 }
 

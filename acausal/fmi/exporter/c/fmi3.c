@@ -2,6 +2,8 @@
    standard (sections 2.3, 3.2 and 4.2); one that is refused leaves the instance as it is. */
 #include "fmi3_types.h"
 #include "instance.h"
+#include "hybrid.h"
+#include "values.h"
 #include "advance.h"
 #include "directional.h"
 
@@ -34,7 +36,7 @@ static void log_to(const fmu_instance *f, int status, const char *category, cons
 
 FMU_EXPORT const char *fmi3GetVersion(void) { return "3.0"; }
 
-static fmi3Instance instantiate(
+static fmu_instance *instantiate(
     int kind, fmi3String name, fmi3String token, fmi3Boolean logging, fmi3InstanceEnvironment environment,
     fmi3LogMessageCallback log) {
     const char *wrong = !name || !*name ? "an instance needs a name"
@@ -64,12 +66,14 @@ FMU_EXPORT fmi3Instance fmi3InstantiateCoSimulation(
     fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
     fmi3Boolean event_mode_used, fmi3Boolean early_return_allowed, const fmi3ValueReference required[], size_t n_required,
     fmi3InstanceEnvironment environment, fmi3LogMessageCallback log, fmi3IntermediateUpdateCallback update) {
-    (void)resources, (void)visible, (void)event_mode_used, (void)early_return_allowed, (void)required, (void)update;
+    (void)resources, (void)visible, (void)required, (void)update;
     if (n_required) {
         if (log) log(environment, fmi3Error, "logStatusError", "there are no intermediate updates in this FMU");
         return NULL;
     }
-    return instantiate(FMU_CO_SIMULATION, name, token, logging, environment, log);
+    fmu_instance *f = instantiate(FMU_CO_SIMULATION, name, token, logging, environment, log);
+    if (f) f->event_mode = event_mode_used, f->early_return = early_return_allowed;
+    return f;
 }
 
 FMU_EXPORT fmi3Instance fmi3InstantiateScheduledExecution(
@@ -109,8 +113,7 @@ FMI3(ExitInitializationMode)(fmi3Instance c) {
 
 FMI3(Terminate)(fmi3Instance c) {
     NEEDS("Terminate", FMU_INITIALIZED | FMU_FAILED);
-    f->s.mode = FMU_TERMINATED;
-    return fmi3OK;
+    return fmu_terminate(f);
 }
 
 FMI3(Reset)(fmi3Instance c) {
@@ -127,7 +130,17 @@ FMI3(Reset)(fmi3Instance c) {
     }
 REFUSED(EnterConfigurationMode, (fmi3Instance c), "the model has no structural parameters")
 REFUSED(ExitConfigurationMode, (fmi3Instance c), "the model has no structural parameters")
-REFUSED(EnterStepMode, (fmi3Instance c), "the instance has no event mode in co-simulation")
+
+static int has_event_mode(fmi3Instance c) {
+    const fmu_instance *f = instance_of(c);
+    return f && f->kind == FMU_CO_SIMULATION && f->event_mode;
+}
+
+FMI3(EnterStepMode)(fmi3Instance c) {
+    NEEDS_KIND("EnterStepMode", FMU_CO_SIMULATION, FMU_EVENT);
+    f->s.mode = FMU_STEP;
+    return fmi3OK;
+}
 
 /* ---- values -------------------------------------------------------------------------------------- */
 FMI3(GetFloat64)(fmi3Instance c, const fmi3ValueReference references[], size_t n, fmi3Float64 values[], size_t n_values) {
@@ -256,8 +269,9 @@ FMI3(DeserializeFMUState)(fmi3Instance c, const fmi3Byte bytes[], size_t size, f
 #define NEEDS_ME(NAME, MODES) NEEDS_KIND(NAME, FMU_MODEL_EXCHANGE, MODES)
 
 FMI3(EnterEventMode)(fmi3Instance c) {
-    NEEDS_ME("EnterEventMode", FMU_CONTINUOUS);
+    NEEDS("EnterEventMode", has_event_mode(c) ? FMU_STEP : FMU_CONTINUOUS);
     f->s.mode = FMU_EVENT;
+    f->s.event_due = 1;
     return fmi3OK;
 }
 
@@ -269,13 +283,17 @@ FMI3(EvaluateDiscreteStates)(fmi3Instance c) {
 FMI3(UpdateDiscreteStates)(
     fmi3Instance c, fmi3Boolean *again, fmi3Boolean *terminate, fmi3Boolean *nominals_changed, fmi3Boolean *values_changed,
     fmi3Boolean *next_event_defined, fmi3Float64 *next_event) {
-    NEEDS_ME("UpdateDiscreteStates", FMU_EVENT);
+    NEEDS("UpdateDiscreteStates", FMU_EVENT);
     NEEDS_POINTER("UpdateDiscreteStates",
                   !again || !terminate || !nominals_changed || !values_changed || !next_event_defined || !next_event);
-    *again = *terminate = *nominals_changed = *next_event_defined = false;
-    *next_event = 0.0;
-    *values_changed = fmu_update(f) != 0;
-    return fmi3OK;
+    int changed = 0;
+    double next = INFINITY;
+    const int status = fmu_update(f, &changed, &next);
+    *again = *nominals_changed = false;
+    *terminate = f->s.ended != 0, *values_changed = changed != 0;
+    *next_event_defined = next < INFINITY;
+    *next_event = *next_event_defined ? next : 0.0;
+    return status;
 }
 
 FMI3(EnterContinuousTimeMode)(fmi3Instance c) {
@@ -292,7 +310,7 @@ FMI3(CompletedIntegratorStep)(
     *terminate = false;
     f->s.drifted = fmu_restore(f, 0);
     *enter_event_mode = f->s.drifted != 0;
-    return fmi3OK;
+    return fmu_check(f);
 }
 
 FMI3(SetTime)(fmi3Instance c, fmi3Float64 time) {
@@ -324,7 +342,7 @@ READ_STATES(GetNominalsOfContinuousStates, fmu_get_nominals)
         *n = VALUE;                                     \
         return fmi3OK;                                  \
     }
-COUNT(GetNumberOfEventIndicators, FMU_INDICATORS)
+COUNT(GetNumberOfEventIndicators, AC_NR)
 COUNT(GetNumberOfContinuousStates, AC_NX)
 
 /* ---- co-simulation ------------------------------------------------------------------------------- */
@@ -340,9 +358,11 @@ FMI3(DoStep)(
         fmu_say(f, FMU_ERROR, "fmi3DoStep: the step size %.9g s is not positive", h);
         return fmi3Error;
     }
-    const int status = fmu_do_step(f, t, h);
+    int early, due;
+    const int status = fmu_do_step(f, t, h, &early, &due);
     *last_time = f->s.t;
-    *early_return = status == FMU_DISCARD;
+    *event = due != 0, *terminate = f->s.ended != 0;
+    *early_return = early || status == FMU_DISCARD || (f->s.ended && f->s.t < t + h);
     return status;
 }
 

@@ -6,8 +6,6 @@
    rotations of the rows (Golub and Van Loan 2013, Matrix Computations, 8.6.3), so that conditions may repeat each other.
 
    To be included after solver.h, for a system that is written out. Nothing here allocates memory. */
-#ifndef AC_INITIALIZE_H
-#define AC_INITIALIZE_H
 
 enum { AC_NW = AC_N - AC_NX, AC_FIRST_WANTED = AC_NW + AC_NG };
 
@@ -188,4 +186,3 @@ static AC_UNUSED double ac_initialize(ac_work *w, ac_initial *a, const ac_given 
     }
     return left;
 }
-#endif

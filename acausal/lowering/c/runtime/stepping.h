@@ -8,10 +8,14 @@ typedef struct {
     long steps, accepted, rejected;
 } ac_control;
 
-/* Advances w->z from q->t_end to q->t1 (forward); at most q->max_steps steps. A result as that of acausal_run. */
+/* Advances w->z from q->t_end to q->t1 (forward), or to the first event if they are located; at most q->max_steps steps.
+   A result as that of acausal_run. */
 static AC_UNUSED int ac_advance(ac_problem *q, ac_work *w, ac_control *k) {
     double t = q->t_end;
     int forced = 0, fresh = 0, cut = 0;
+#if AC_NR > 0
+    if (q->located) ac_arm(w, t);
+#endif
     if (!(k->h > 0.0)) {
         ac_inputs(w, t);
         ac_field_jacobian(&w->m, t, w->z, w->f, w->ft, w->J);
@@ -61,7 +65,12 @@ static AC_UNUSED int ac_advance(ac_problem *q, ac_work *w, ac_control *k) {
         if (k->rejected_before) next = ac_min(next, h);
         if (cut) next = ac_max(next, planned); /* a step cut short says nothing against the planned one */
         k->h = next, k->h_before = h, k->error_before = ac_max(size, 1e-2), k->rejected_before = 0;
-        t = last ? q->t1 : t + h;
+        int event = 0;
+#if AC_NR > 0
+        if (q->located) event = ac_to_switch(w, t, &h);
+        if (event < 0) return AC_SINGULAR;
+#endif
+        t = last && !event ? q->t1 : t + h;
 #if AC_NG > 0
         ac_project(w, NULL, t);
 #endif
@@ -69,6 +78,18 @@ static AC_UNUSED int ac_advance(ac_problem *q, ac_work *w, ac_control *k) {
         k->accepted++;
         q->t_end = t;
         fresh = 0;
+#if AC_NR > 0
+        if (event) {
+            for (int i = 0; i < AC_NR; i++) q->switched[i] = ac_switched(w, w->g2, i);
+            return AC_EVENT;
+        }
+        for (int i = 0; q->located && i < AC_NR; i++) { /* the slack is there until mode and value agree */
+            const double slack = w->slack[i];
+            w->g0[i] = w->g2[i];
+            w->slack[i] = 0.0;
+            if (slack > 0.0 && ac_switched(w, w->g2, i)) w->slack[i] = slack;
+        }
+#endif
     }
     return AC_DONE;
 }

@@ -1,0 +1,400 @@
+/* Events: modes of conditions, left limits, triggers and states until nothing changes any more.
+
+   All that changes at events is a slot behind the parameters and the inputs; the equations are smooth between events.
+   Modelica Language Specification 3.6, 8.6 and Appendix B. The generated function ac_event_values gives, one after the
+   other: floors, left limits, conditions of triggers, reinitializations (trigger, value), assertions, ends, samples
+   (start, interval). A model without events has none of these, and nothing here takes any time. */
+
+#define FMU_BEHIND 1e-10 /* in nominal values of what is in the condition */
+#define FMU_NOISE 1e-9 /* a condition that is no further from its switch, in units of what is in it, is there by rounding */
+
+static void fmu_put(fmu_instance *f, int slot, double value, int *changed) {
+    if (f->s.p[slot] != value) {
+        f->s.p[slot] = value;
+        f->constants_known = 0;
+        f->slot_changed[slot - FMU_FIRST_SLOT] = 1;
+        (*changed)++;
+    }
+}
+
+static void fmu_no_changes(fmu_instance *f) {
+    memset(f->slot_changed, 0, sizeof f->slot_changed);
+}
+
+/* Functions of the conditions, and all that events need, at the point of the instance. */
+static void fmu_event_values(fmu_instance *f) {
+    ac_work *w = fmu_prepare(f);
+    ac_inputs(w, f->s.t);
+    ac_roots(&w->m, f->s.t, f->s.z, f->roots);
+    ac_event_values(&w->m, f->s.t, f->s.z, f->events);
+}
+
+/* Positive where the condition is taken to hold. The sign changes a little behind the switch, seen from the present mode,
+   so that the condition has switched beyond doubt where an importer finds a root. */
+static AC_UNUSED double fmu_indicator(const fmu_instance *f, int root) {
+    const int slot = ac_root_slot[root], holds = slot < 0 || f->s.p[slot] != 0.0;
+    return (holds ? FMU_BEHIND : -FMU_BEHIND) * fmu_root_scale[root] - f->roots[root];
+}
+
+static int fmu_holds(const fmu_instance *f, int root) {
+    return ac_root_strict[root] ? f->roots[root] < 0.0 : f->roots[root] <= 0.0;
+}
+
+/* States and algebraic unknowns near the present ones that satisfy the equations and the retained constraints; states of
+   the mask stay, and so do all states where there is none, or where only velocities may jump. */
+static int fmu_move(fmu_instance *f, const unsigned char *stays, int velocities_only) {
+    ac_work *w = fmu_prepare(f);
+    ac_initial *a = &f->initial;
+    double ease[AC_N + 1];
+    for (int j = 0; j < AC_N; j++) {
+        ease[j] = j < AC_NX ? ac_nominal[j] : 1e4 * ac_nominal[j];
+        a->moves[j] = j >= AC_NX || (stays && !stays[j] && (!velocities_only || fmu_is_rate[j]));
+    }
+    const ac_given given = {fmu_fixed, ease, f->wanted, 0};
+    memcpy(a->found, f->s.z, sizeof a->found);
+    memset(a->r0, 0, sizeof a->r0);
+    a->t = f->s.t, a->share = 0.0, a->n_rows = stays ? AC_FIRST_WANTED : AC_NW;
+    ac_root_near(w, a, &given, a->found);
+    const double left = ac_residual_left(a);
+    if (!(left <= FMU_CONSISTENT)) {
+        fmu_say(f, FMU_DISCARD, "the equations have no solution near the values before the event at t = %.12g s", f->s.t);
+        return FMU_DISCARD;
+    }
+    memcpy(f->s.z, a->found, sizeof a->found);
+    return FMU_OK;
+}
+
+/* The algebraic unknowns from the states; failing Newton's method, by steps of least change. */
+static int fmu_settle(fmu_instance *f) {
+    if (AC_N == AC_NX) return FMU_OK;
+    ac_work *w = fmu_prepare(f);
+    memcpy(w->y, f->s.z, sizeof w->y);
+    if (!ac_slope(w, f->s.t, w->y, f->slopes)) {
+        memcpy(f->s.z, w->y, sizeof w->y);
+        return FMU_OK;
+    }
+    return fmu_move(f, NULL, 0);
+}
+
+/* ---- one turn ------------------------------------------------------------------------------------ */
+static int fmu_modes(fmu_instance *f) {
+    int changed = 0;
+    for (int k = 0; k < AC_NR; k++)
+        if (ac_root_slot[k] >= 0) fmu_put(f, ac_root_slot[k], fmu_holds(f, k), &changed);
+    for (int k = 0; k < FMU_FLOORS; k++) fmu_put(f, fmu_floor_slot[k], floor(f->events[k]), &changed);
+    return changed;
+}
+
+static int fmu_lefts(fmu_instance *f) {
+    int changed = 0;
+    for (int k = 0; k < FMU_PRES; k++) fmu_put(f, fmu_pre_slot[k], f->events[FMU_AT_PRES + k], &changed);
+    return changed;
+}
+
+static int fmu_triggers(fmu_instance *f) {
+    int changed = 0;
+    for (int k = 0; k < FMU_CONDITIONS;) {
+        const int slot = fmu_condition_slot[k];
+        int pulled = 0;
+        for (; k < FMU_CONDITIONS && fmu_condition_slot[k] == slot; k++)
+            pulled |= f->events[FMU_AT_CONDITIONS + k] != 0.0 && !f->s.before[k];
+        fmu_put(f, slot, pulled, &changed);
+    }
+    return changed;
+}
+
+static void fmu_remember(fmu_instance *f) {
+    for (int k = 0; k < FMU_CONDITIONS; k++) f->s.before[k] = f->events[FMU_AT_CONDITIONS + k] != 0.0;
+}
+
+static int fmu_active(const fmu_instance *f) {
+    int active = 0;
+    for (int k = 0; k < FMU_CONDITIONS; k++) active |= f->s.p[fmu_condition_slot[k]] != 0.0;
+    return active;
+}
+
+static void fmu_release(fmu_instance *f) {
+    int changed = 0;
+    for (int k = 0; k < FMU_CONDITIONS; k++) fmu_put(f, fmu_condition_slot[k], 0.0, &changed);
+}
+
+static int fmu_by_rounding(fmu_instance *f) {
+    ac_observe(&fmu_prepare(f)->m, f->s.t, f->s.z, f->all);
+    for (int k = 0; k < FMU_SLOTS; k++)
+        if (f->slot_changed[k] && !fmu_is_mode[k]) return 0;
+    for (int k = 0; k < AC_NR; k++) {
+        const int slot = ac_root_slot[k];
+        if (slot < 0 || !f->slot_changed[slot - FMU_FIRST_SLOT]) continue;
+        double scale = fmu_root_first[k] == fmu_root_first[k + 1] ? 1.0 : 0.0;
+        for (int e = fmu_root_first[k]; e < fmu_root_first[k + 1]; e++)
+            scale = ac_max(scale, ac_max(fabs(f->all[fmu_root_variable[e]]), fmu_root_nominal[e]));
+        if (!(fabs(f->roots[k]) <= FMU_NOISE * scale)) return 0;
+    }
+    return 1;
+}
+
+static unsigned long long fmu_slot_hash(const fmu_instance *f) { /* FNV-1a */
+    const unsigned char *byte = (const unsigned char *)(f->s.p + FMU_FIRST_SLOT);
+    unsigned long long hash = 14695981039346656037ULL;
+    const size_t size = FMU_SLOTS * sizeof(double);
+    for (size_t k = 0; k != size; k++) hash = (hash ^ byte[k]) * 1099511628211ULL;
+    return hash;
+}
+
+static int fmu_tried(const fmu_instance *f, int n, unsigned long long hash) {
+    for (int k = 0; k < n; k++)
+        if (f->tried[k] == hash) return 1;
+    return 0;
+}
+
+static void fmu_say_slots(fmu_instance *f, const char *what) {
+    fmu_say(f, FMU_DISCARD, "at t = %.12g s %s", f->s.t, what);
+    for (int k = 0, n = 0; k < FMU_SLOTS && n < 8; k++)
+        if (f->slot_changed[k]) n++, fmu_say(f, FMU_DISCARD, "    %s", fmu_slot_text[k]);
+}
+
+/* Modes and triggers that agree with the solution of the equations. */
+static int fmu_consistent(fmu_instance *f) {
+    double old[FMU_SLOTS + 1];
+    int one_by_one = 0, tried = 0;
+    for (int turn = 0; turn < FMU_TURNS; turn++) {
+        const int status = fmu_settle(f);
+        if (status != FMU_OK) return status;
+        fmu_event_values(f);
+        const unsigned long long hash = fmu_slot_hash(f);
+        memcpy(old, f->s.p + FMU_FIRST_SLOT, sizeof(double) * FMU_SLOTS);
+        fmu_no_changes(f);
+        int changed = fmu_modes(f);
+        if (one_by_one && changed > 1) { /* Murty's least-index rule: it does not cycle where a solution exists */
+            int first = 0, again = 0;
+            while (!f->slot_changed[first]) first++;
+            const double value = f->s.p[FMU_FIRST_SLOT + first];
+            memcpy(f->s.p + FMU_FIRST_SLOT, old, sizeof(double) * FMU_SLOTS);
+            fmu_no_changes(f);
+            fmu_put(f, FMU_FIRST_SLOT + first, value, &again);
+            changed = again;
+        }
+        changed += fmu_triggers(f);
+        if (!changed) return FMU_OK;
+        if (!fmu_tried(f, tried, hash)) f->tried[tried++] = hash;
+        if (fmu_tried(f, tried, fmu_slot_hash(f))) {
+            if (fmu_by_rounding(f)) {
+                memcpy(f->s.p + FMU_FIRST_SLOT, old, sizeof(double) * FMU_SLOTS);
+                f->constants_known = 0;
+                fmu_event_values(f);
+                return FMU_OK;
+            }
+            if (one_by_one) break;
+            one_by_one = 1, tried = 0;
+        }
+    }
+    fmu_say_slots(f, "no values of these conditions agree with the equations:");
+    return FMU_DISCARD;
+}
+
+/* Assertions at the values of f->events. */
+static int fmu_assert(fmu_instance *f) {
+    for (int k = 0; k < FMU_ASSERTS; k++) {
+        if (f->events[FMU_AT_ASSERTS + k] != 0.0) continue;
+        if (fmu_assert_fatal[k]) {
+            fmu_say(f, FMU_DISCARD, "at t = %.9g s an assertion does not hold: %s", f->s.t, fmu_assert_text[k]);
+            return FMU_DISCARD;
+        }
+        if (!f->s.warned[k]) fmu_say(f, FMU_WARNING, "at t = %.9g s: %s", f->s.t, fmu_assert_text[k]);
+        f->s.warned[k] = 1;
+    }
+    return FMU_OK;
+}
+
+/* States with the values that reinit gives; those that depend on them follow by the least change. */
+static int fmu_reinitialize(fmu_instance *f) {
+    unsigned char stays[AC_N + 1] = {0};
+    int any = 0, only_rates = 1;
+    for (int k = 0; k < FMU_REINITS; k++) {
+        if (f->events[FMU_AT_REINITS + 2 * k] == 0.0) continue;
+        const int i = fmu_reinit_state[k];
+        f->s.z[i] = fmu_reinit_sign[k] * f->events[FMU_AT_REINITS + 2 * k + 1];
+        stays[i] = 1, any = 1;
+        only_rates &= fmu_is_rate[i];
+    }
+    return any && AC_NG > 0 ? fmu_move(f, stays, only_rates) : FMU_OK;
+}
+
+static void fmu_end(fmu_instance *f) {
+    for (int k = 0; k < FMU_ENDS && !f->s.ended; k++)
+        if (f->events[FMU_AT_ENDS + k] != 0.0) {
+            f->s.ended = 1;
+            fmu_say(f, FMU_OK, "the model ends the simulation at t = %.9g s: %s", f->s.t, fmu_end_text[k]);
+        }
+}
+
+/* To the fixed point: no trigger is left, and left limits are values. */
+static int fmu_iterate(fmu_instance *f) {
+    for (int turn = 0; turn < FMU_TURNS; turn++) {
+        int status = fmu_consistent(f);
+        if (status == FMU_OK) status = fmu_assert(f);
+        if (status != FMU_OK) return status;
+        const int active = fmu_active(f);
+        if (active) {
+            fmu_end(f);
+            status = fmu_reinitialize(f);
+            if (status != FMU_OK) return status;
+        }
+        const int moved = fmu_lefts(f);
+        fmu_remember(f);
+        if (!active && !moved) return FMU_OK;
+        fmu_release(f);
+    }
+    fmu_say_slots(f, "the events do not come to an end: each change brings about another:");
+    return FMU_DISCARD;
+}
+
+/* ---- samples ------------------------------------------------------------------------------------- */
+/* Time of the next samples behind t (or at it); those that are due then are marked. */
+static double fmu_next_sample(fmu_instance *f, double t, int at) {
+    double best = INFINITY;
+    f->due_interval = 0.0;
+    for (int k = 0; k < FMU_SAMPLES; k++) {
+        const double start = f->events[FMU_AT_SAMPLES + 2 * k], interval = f->events[FMU_AT_SAMPLES + 2 * k + 1];
+        if (!(interval > 0.0)) continue;
+        double n = ceil((t - start) / interval - 1e-9);
+        if (!at) n = floor((t - start) / interval + 1e-9) + 1.0;
+        const double time = start + ac_max(n, 0.0) * interval;
+        if (time < best - 1e-12 * interval) {
+            best = time;
+            f->due_interval = interval;
+            memset(f->due, 0, sizeof f->due);
+        }
+        if (time <= best + 1e-12 * interval) f->due[k] = 1;
+    }
+    return best;
+}
+
+/* Whether samples are due at the time of the instance that have not been carried out; they are marked. */
+static int fmu_sample_is_due(fmu_instance *f) {
+    const double time = fmu_next_sample(f, f->s.t, 1), close = 1e-9 * ac_max(f->due_interval, 1e-3);
+    return fabs(time - f->s.t) <= close && time > f->s.sampled_until + close;
+}
+
+static void fmu_put_samples(fmu_instance *f, double value) {
+    int changed = 0;
+    for (int k = 0; k < FMU_SAMPLES; k++)
+        if (f->due[k]) fmu_put(f, fmu_sample_slot[k], value, &changed);
+}
+
+/* ---- events -------------------------------------------------------------------------------------- */
+/* What follows at the time of the instance from the left limits in it. `switched` is the mask of the conditions that have
+   switched, `sampled` whether samples are due (f->due). */
+static int fmu_event(fmu_instance *f, const int *switched, int sampled, int final) {
+    int changed = 0;
+    if (FMU_HYBRID == 0) return FMU_OK;
+    int status = fmu_settle(f);
+    if (status != FMU_OK) return status;
+    fmu_event_values(f);
+    fmu_lefts(f);
+    if (sampled) fmu_put_samples(f, 1.0);
+    if (final && FMU_TERMINAL >= 0) fmu_put(f, FMU_TERMINAL, 1.0, &changed);
+    for (int k = 0; switched && k < AC_NR; k++)
+        if (switched[k] && ac_root_slot[k] >= 0) fmu_put(f, ac_root_slot[k], 1.0 - f->s.p[ac_root_slot[k]], &changed);
+    for (int k = 0; k < FMU_FLOORS; k++) fmu_put(f, fmu_floor_slot[k], floor(f->events[k]), &changed);
+    status = fmu_iterate(f);
+    if (status != FMU_OK) return status;
+    if (sampled || final) {
+        if (sampled) {
+            f->s.sampled_until = f->s.t;
+            fmu_put_samples(f, 0.0);
+        }
+        if (final && FMU_TERMINAL >= 0) fmu_put(f, FMU_TERMINAL, 0.0, &changed);
+        fmu_event_values(f);
+        fmu_remember(f);
+    }
+    fmu_forget(f);
+    f->algebraic_known = 1;
+    return FMU_OK;
+}
+
+/* Conditions that disagree with their modes. */
+static int fmu_disagreeing(fmu_instance *f, int *switched) {
+    int any = 0;
+    fmu_event_values(f);
+    for (int k = 0; k < AC_NR; k++) {
+        const int slot = ac_root_slot[k];
+        switched[k] = slot >= 0 ? fmu_holds(f, k) != (f->s.p[slot] != 0.0) : !fmu_holds(f, k);
+        any |= switched[k];
+    }
+    return any;
+}
+
+/* ---- start --------------------------------------------------------------------------------------- */
+/* Triggers that initial() pulls: conditions that hold with it and would not without. */
+static int fmu_initial_triggers(fmu_instance *f) {
+    double with[FMU_CONDITIONS + 1];
+    int changed = 0;
+    if (FMU_INITIAL < 0) return 0;
+    memcpy(with, f->events + FMU_AT_CONDITIONS, sizeof(double) * FMU_CONDITIONS);
+    f->s.p[FMU_INITIAL] = 0.0, f->constants_known = 0;
+    fmu_event_values(f);
+    f->s.p[FMU_INITIAL] = 1.0, f->constants_known = 0;
+    for (int k = 0; k < FMU_CONDITIONS;) {
+        const int slot = fmu_condition_slot[k];
+        int pulled = 0;
+        for (; k < FMU_CONDITIONS && fmu_condition_slot[k] == slot; k++)
+            pulled |= with[k] != 0.0 && f->events[FMU_AT_CONDITIONS + k] == 0.0;
+        fmu_put(f, slot, pulled, &changed);
+    }
+    fmu_event_values(f);
+    return changed;
+}
+
+/* Slots before the first solution of the start. */
+static void fmu_first_slots(fmu_instance *f) {
+    memset(f->s.p + FMU_FIRST_SLOT, 0, sizeof(double) * FMU_SLOTS);
+    memset(f->s.before, 0, sizeof f->s.before);
+    f->s.ended = 0;
+    if (FMU_INITIAL >= 0) f->s.p[FMU_INITIAL] = 1.0;
+    for (int k = 0; k < FMU_PRES; k++)
+        if (fmu_pre_source[k] >= 0) {
+            const double value = fmu_pre_sign[k] * f->starts[fmu_pre_source[k]];
+            f->s.p[fmu_pre_slot[k]] = value == value ? value : 0.0;
+        }
+    f->constants_known = 0;
+}
+
+/* Consistent values with their modes, from start values in f->s.z. */
+static int fmu_hybrid_start(fmu_instance *f, const ac_given *given) {
+    double first[AC_N + 1];
+    int tried = 0, changed = 0;
+    memcpy(first, f->s.z, sizeof f->s.z);
+    fmu_first_slots(f);
+    for (int turn = 0; turn < FMU_TURNS; turn++) {
+        memcpy(f->s.z, first, sizeof f->s.z);
+        f->left = ac_initialize(fmu_prepare(f), &f->initial, given, f->s.t, f->s.z);
+        if (!(f->left <= FMU_CONSISTENT)) return FMU_OK; /* the caller looks at what is left */
+        fmu_event_values(f);
+        const unsigned long long hash = fmu_slot_hash(f);
+        fmu_no_changes(f);
+        changed = fmu_modes(f) + fmu_initial_triggers(f);
+        if (!changed || (fmu_tried(f, tried, fmu_slot_hash(f)) && fmu_by_rounding(f))) break;
+        f->tried[tried++] = hash;
+        if (turn == FMU_TURNS - 1) {
+            fmu_say_slots(f, "the conditions and the equations of the start contradict each other:");
+            return FMU_ERROR;
+        }
+    }
+    if (FMU_HYBRID == 0) return FMU_OK;
+    fmu_event_values(f);
+    int status = FMU_OK, ignored = 0;
+    if (fmu_active(f)) {
+        fmu_end(f);
+        status = fmu_reinitialize(f);
+    }
+    fmu_lefts(f);
+    fmu_release(f);
+    if (FMU_INITIAL >= 0) fmu_put(f, FMU_INITIAL, 0.0, &ignored);
+    fmu_event_values(f);
+    fmu_remember(f);
+    if (status == FMU_OK) status = fmu_iterate(f);
+    f->s.sampled_until = -INFINITY;
+    if (status == FMU_OK && FMU_SAMPLES > 0 && fmu_sample_is_due(f)) status = fmu_event(f, NULL, 1, 0);
+    return status;
+}
