@@ -171,14 +171,14 @@ def main(words: list[str] | None = None) -> int:
     for joint, (curves, known) in found.items():
         header, rows = table(curves)
         text = (
-            f"The extended-{joint} crane, scenario *sine*, 0 to 20 s: CPU milliseconds of the solve (compiling and, but "
-            "for `simulate`, initialization are not in it) at equal achieved error, interpolated on each tool's curve. "
-            "The error is the root mean square over all states and 401 times, relative to the range of each state; the "
-            f"reference is known to {known}. Only `simulate` locates the switching of the valve as an event. *{PEER}* is "
-            "the hand-written program with dense BDF, compiled with -O3 -march=native; *on the same C* are other methods "
-            "with the compiled equations, Jacobian and factors of the native engine (BDF: CVODE with dense factors). SciPy "
-            "and scikit-SUNDAE call the compiled vector field and its Jacobian; CasADi has the same equations as "
-            "expressions in its virtual machine. Tools that do not reach a level have no entry."
+            f"The extended-{joint} crane, scenario *sine*, 0 to 20 s: CPU milliseconds of the solve (without compiling "
+            "and, but for `simulate`, without the start) at equal error, interpolated on each tool's curve. The "
+            "error is the root mean square over all states and 401 times, relative to the range of each state; the "
+            f"reference is known to {known}. Only `simulate` locates the switching of the valve as an event. *{PEER}* "
+            "is the hand-written program with dense BDF, compiled with -O3 -march=native; *on the same C* are other "
+            "methods with the compiled equations, Jacobian and factors of the native engine (BDF: CVODE with dense "
+            "factors). SciPy and scikit-SUNDAE call the compiled vector field and its Jacobian; CasADi has the same "
+            "equations as expressions in its virtual machine. Tools that do not reach a level have no entry."
         )
         key, command = f"work-precision-{joint}", "python -m benchmarks.work_precision --cvode kbc_cvode.c"
         picture = "![work and precision](work_precision.png)" if joint == "compliant" else ""
