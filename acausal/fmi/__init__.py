@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from .result import CoSimulationResult as CoSimulationResult
     from .splitting import Split as Split
     from .splitting import split as split
+    from .ssp import read_ssp as read_ssp
+    from .ssp import write_ssp as write_ssp
     from .system_participant import SystemParticipant as SystemParticipant
 
 _LAZY = {
@@ -38,7 +40,9 @@ _LAZY = {
     "SystemParticipant": "system_participant",
     "export": "exporter.export",
     "load": "fmu",
+    "read_ssp": "ssp",
     "split": "splitting",
+    "write_ssp": "ssp",
 }
 
 
