@@ -23,7 +23,7 @@ from benchmarks.peers.methods import Methods
 from benchmarks.results import Section, write
 
 LEVELS = (1e-4, 1e-6, 1e-8)
-DENSE = tuple(float(10.0**k) for k in np.arange(-3, -12.1, -0.5))
+DENSE = tuple(float(10.0**k) for k in np.arange(-3, -11.1, -0.5))
 MEDIUM = tuple(10.0**k for k in range(-3, -12, -1))
 FEW = tuple(10.0**k for k in range(-3, -10, -1))
 FIGURE = Path(__file__).with_name("work_precision.png")
@@ -53,7 +53,7 @@ def at_level(curve: Curve, level: float) -> float | None:
 def tools(joint: str, cvode: CvodeProgram | None, quick: bool) -> dict[str, tuple[Callable[[], Tool], Any]]:
     """Tool and its tolerances by name; made when its turn comes."""
     crane = integrators.Crane(joint)
-    many, few, one = (5, 2, 1) if quick else (60, 8, 1)
+    many, few, one = (5, 2, 1) if quick else (20, 4, 1)
     native = integrators.native(crane, many)
     named: dict[str, tuple[Callable[[], Tool], Any]] = {}
     if cvode is not None:

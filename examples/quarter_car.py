@@ -29,7 +29,7 @@ class QuarterCar(Component):
     """Road, tyre, wheel, suspension and body, one above the other; positions from the static ones."""
 
     bumps: blocks.SignalSource = blocks.Sine(amplitude=0.03, f=2.0)
-    road: tr.Position = tr.Position()
+    road: tr.Position = tr.Position(exact=True)
     tyre: tr.SpringDamper = tr.SpringDamper(c=2e5, d=100.0)
     wheel: tr.Mass = tr.Mass(m=40.0)
     suspension: tr.PartialCompliantWithVelocity = Suspension()  # any component of this type can take its place

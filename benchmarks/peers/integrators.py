@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import resource
 import subprocess
 import tempfile
 import time
@@ -224,10 +225,16 @@ def sundae(crane: Crane, repeats: int) -> Tool:
     return solve
 
 
+def _children() -> float:
+    """CPU seconds of processes that this one started and that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 class CvodeProgram:
     """The hand-written C program with CVODE, built with `cc` from the path of its source.
 
-    Its time is what it prints itself, the trajectory comes from `cvode_grid.c`, which takes the same steps.
+    Its time is what it prints itself, or the mean CPU time of its runs if that is less; the trajectory comes from `cvode_grid.c`, which takes the same steps.
     """
 
     LIBRARIES = ("cvode", "nvecserial", "sunmatrixdense", "sunlinsoldense")
@@ -246,11 +253,14 @@ class CvodeProgram:
         """The program for one joint."""
 
         def solve(rtol: float) -> Outcome:
+            before = _children()
             out = subprocess.run(
                 [self.program, joint, repr(rtol), str(repeats)], capture_output=True, text=True, check=True
             ).stdout.splitlines()
+            mean = 1e3 * (_children() - before) / repeats
             lines = [line.split() for line in out[:repeats]]
-            return Outcome(min(float(line[0]) for line in lines), self.trajectory(joint, rtol), int(lines[0][1]))
+            best_wall = min(float(line[0]) for line in lines)
+            return Outcome(min(best_wall, mean), self.trajectory(joint, rtol), int(lines[0][1]))
 
         return solve
 

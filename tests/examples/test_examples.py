@@ -26,8 +26,9 @@ def load(name: str) -> ModuleType:
 
 
 @pytest.mark.slow
-def test_quarter_car(tmp_path: Path) -> None:
-    load("quarter_car").main(tmp_path / "car.png")
+@pytest.mark.parametrize("name", ["car", "quarter_car"])
+def test_cars(name: str, tmp_path: Path) -> None:
+    load(name).main(tmp_path / "car.png")
     assert (tmp_path / "car.png").read_bytes().startswith(b"\x89PNG")
 
 
