@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..language.declarations import Kind
 from ..language.flat_model import Bools, Family, FlatModel
 from ..language.template import Floats, Ints
 from ..passes.specialize import specialize
@@ -92,6 +93,11 @@ class Hybrid:
     def slots(self) -> slice:
         """Where the slots are among the parameters."""
         return slice(self.first, self.first + self.flat.slots.count)
+
+    def moves(self, ids: Ints) -> Bools:
+        """Which of these variables move between events."""
+        kinds = self.flat.kind
+        return np.where(ids < len(kinds), kinds[np.minimum(ids, len(kinds) - 1)] != Kind.DISCRETE, True)
 
     def text(self, slot: int) -> str:
         """What a slot is about, with component and source line."""

@@ -27,6 +27,10 @@ class ParameterProgram:
         self.n_p = flat.n_p
         inputs = np.nan_to_num(flat.start[flat.inputs])
         self.base: Floats = np.concatenate([flat.par_value, inputs, np.zeros(flat.slots.count)])
+        for piece in flat.slots.pieces:
+            if piece.residual.op == "pre" and piece.residual.args[1].op == "var":  # left limits begin with start values
+                slot, variable = (a.value for a in piece.residual.args)
+                self.base[piece.par_rows[:, slot]] = np.nan_to_num(flat.start[piece.var_rows[:, variable]])
         self.dependent = np.zeros(self.n_p, bool)
         for a in flat.par_assignments:
             self.dependent[a.targets] = True

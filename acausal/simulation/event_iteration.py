@@ -21,6 +21,8 @@ from .native_library import Floats
 
 TURNS = 200
 """Most solutions of one event."""
+ROUNDING = 1e-13
+"""Values of a condition this small, relative to the quantities in it, are rounding."""
 NOISE = 1e-9
 """A condition that switches back and forth and is no further from its switch than this, relative to the quantities in
 it, is there by rounding."""
@@ -98,6 +100,7 @@ class EventIteration:
         self.due: list[tuple[float, float, int]] = []
         self.moves: list[Move] = []
         self.forced: list[int] = []
+        self.noise: Floats = np.zeros(hybrid.roots.count)
 
     # ---- pieces -----------------------------------------------------------------------------------
     def _conditions(self, point: Point) -> list[Any]:
@@ -207,6 +210,7 @@ class EventIteration:
             z = self._reinitialized(t, z, p, point)
             if not active and not self._put_lefts(p, self._lefts(point)):
                 self.before = now
+                self._rounding(values)
                 return Outcome(z, p, values, ended, list(dict.fromkeys(seen)))
             if active:
                 self._put_lefts(p, self._lefts(point))
@@ -278,6 +282,16 @@ class EventIteration:
         if found is None:
             found = self._moved(t, z, p, np.zeros(0, np.int64), np.zeros(0), np.zeros(self.problem.lowered.n_x, bool))
         return found
+
+    def _rounding(self, values: Floats) -> None:
+        """What of each root function is rounding: nothing where it depends on time and discrete variables only."""
+        parts: list[Any] = [np.zeros(0)]
+        nominal = self.problem.lowered.nominal
+        for family in self.hybrid.roots.families:
+            ids = family.var_rows
+            size = np.maximum(np.nan_to_num(np.abs(values[ids])), nominal[ids]) * self.hybrid.moves(ids)
+            parts.append(ROUNDING * size.max(axis=1, initial=0.0))
+        self.noise = np.concatenate(parts)
 
     # ---- actions ----------------------------------------------------------------------------------
     def _reinitialized(self, t: float, z: Floats, p: Floats, point: Point) -> Floats:

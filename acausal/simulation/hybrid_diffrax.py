@@ -123,7 +123,7 @@ def simulate_events(
             return Stretch(np.tile(z, (n, 1)), 0, n, t, z, step, None, {})
         times = np.full(len(save), stop)
         times[: len(remaining)] = np.clip(remaining, t, stop)
-        switch = Switch(jnp.asarray(_slack(hybrid, equations, t, z, p)), lowered, hybrid.roots, together, low.n_x)
+        switch = Switch(jnp.asarray(_slack(iteration, equations, t, z, p)), lowered, hybrid.roots, together, low.n_x)
         event = diffrax.Event(switch, optx.Bisection(rtol=TIME, atol=TIME)) if hybrid.roots.count else None
         settings = plain.settings_of(
             method, ("times",), controller=stepsize_controller, has_dt=dt is not None, event=event, max_steps=most
@@ -169,9 +169,9 @@ def simulate_events(
     return solution
 
 
-def _slack(hybrid: Hybrid, equations: NumericEquations, t: float, z: Floats, p: Floats) -> Floats:
-    side = -sides(hybrid, equations, t, z, p)
-    return np.where(side <= 0.0, 10.0 * np.abs(side) + SLACK, 0.0)
+def _slack(iteration: EventIteration, equations: NumericEquations, t: float, z: Floats, p: Floats) -> Floats:
+    side = -sides(iteration.hybrid, equations, t, z, p)
+    return np.where(side <= iteration.noise, 10.0 * np.abs(side) + iteration.noise + 1e-300, 0.0)
 
 
 def _switched(hybrid: Hybrid, equations: NumericEquations, t: float, z: Floats, p: Floats) -> Any:

@@ -203,18 +203,19 @@ class NativeModel:
         how: Tolerances,
     ) -> HybridRun:  # fmt: skip
         """Integrate from event to event."""
+        iteration, outcome = started.iteration, started.outcome
+        assert iteration is not None and outcome is not None
 
         def integrate(
             t: float, stop: float, z: Floats, p: Floats, save: Floats, step: float, end_open: bool, steps: int
         ) -> Run:
             return library.run(
                 t, stop, z, p, save, rtol=how.rtol, atol=how.atol, signals=given.signals, first_step=step,
-                max_steps=steps, method=METHODS.index(how.method), located=True, end_open=end_open,
+                max_steps=steps, method=METHODS.index(how.method), noise=iteration.noise, end_open=end_open,
             )  # fmt: skip
 
-        assert started.iteration is not None and started.outcome is not None
         return run_hybrid(
-            started.iteration, started.outcome, t0, t1, save, integrate, first_step=how.first_step,
+            iteration, outcome, t0, t1, save, integrate, first_step=how.first_step,
             max_steps=how.max_steps,
         )  # fmt: skip
 
@@ -268,7 +269,7 @@ class NativeModel:
         ) -> Run:
             run = library.run(
                 t, stop, z, p, save, rtol=how.rtol, atol=how.atol, signals=given.signals, first_step=step,
-                max_steps=steps, method=METHODS.index(how.method), located=True, end_open=end_open,
+                max_steps=steps, method=METHODS.index(how.method), noise=iteration.noise, end_open=end_open,
                 tangents=(moving[0], moving[1]),
             )  # fmt: skip
             assert run.dz is not None

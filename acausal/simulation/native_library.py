@@ -46,7 +46,7 @@ class _Problem(ctypes.Structure):
         ("dz_out", _P), ("z_end", _P), ("dz_end", _P), ("t_end", c_double), ("steps", c_long), ("accepted", c_long),
         ("rejected", c_long), ("pivoted", c_long), ("saved", c_long), ("watch", CALLBACK),
         ("watched", c_long), ("located", c_int),
-        ("open", c_int), ("step", c_double), ("switched", c_void_p),
+        ("open", c_int), ("step", c_double), ("noise", _P), ("switched", c_void_p),
     )  # fmt: skip
 
 
@@ -181,7 +181,7 @@ class NativeLibrary:
     def run(
         self, t0: float, t1: float, z0: Floats, p: Floats, save: Floats, *, rtol: float, atol: Floats,
         signals: Sequence[Signal] = (), first_step: float = 0.0, max_steps: int = 1_000_000, method: int = 0,
-        tangents: tuple[Floats, Floats] | None = None, located: bool = False, end_open: bool = False,
+        tangents: tuple[Floats, Floats] | None = None, noise: Floats | None = None, end_open: bool = False,
     ) -> Run:  # fmt: skip
         """Integrate from t0 to t1.
 
@@ -197,7 +197,7 @@ class NativeLibrary:
             max_steps: most steps, rejected ones included.
             method: position in `METHODS`.
             tangents: of z0 (n, lanes) and p (n_p, lanes).
-            located: end at the first event.
+            noise: end at the first event; values of its functions (n_roots,) this small are rounding.
             end_open: save nothing at t1.
 
         Raises:
@@ -209,8 +209,10 @@ class NativeLibrary:
         problem = _Problem(
             t0=t0, t1=t1, rtol=rtol, first_step=first_step, atol=_of(keep[3]), method=method, max_steps=max_steps,
             smallest=1e-14 * max(abs(t0), abs(t1), abs(t1 - t0)), z0=_of(keep[0]), p=_of(keep[1]), n_save=n_t,
-            save=_of(keep[2]), z_out=_of(z), z_end=_of(z_end), t_end=t0, located=located, open=end_open,
+            save=_of(keep[2]), z_out=_of(z), z_end=_of(z_end), t_end=t0, located=noise is not None, open=end_open,
         )  # fmt: skip
+        small = np.zeros(self.n_roots) if noise is None else np.ascontiguousarray(noise, float)
+        problem.noise = _of(small)
         switched = np.zeros(max(self.n_roots, 1), np.int32)
         problem.switched = _of(switched)
         held = _signals(signals)

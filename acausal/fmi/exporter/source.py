@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 LARGEST = 20_000
 """Operations up to which a model is written out in C."""
 FIXED = ("instance.h", "hybrid.h", "values.h", "advance.h", "directional.h")
-MORE_RUNTIME = ("initialize.h", "stepping.h")
+MORE_RUNTIME = ("stepping.h",)
 KINDS = ("me", "cs")
 
 

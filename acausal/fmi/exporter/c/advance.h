@@ -63,7 +63,8 @@ static int fmu_integrate(fmu_instance *f, double stop) {
     memset(&q, 0, sizeof q);
     q.t0 = q.t_end = f->s.t, q.t1 = stop, q.rtol = f->s.rtol, q.atol = f->atol, q.max_steps = FMU_MAX_STEPS;
     q.smallest = 1e-14 * ac_max(fabs(stop), stop - f->s.t);
-    q.located = 1, q.switched = f->switched;
+    q.located = 1, q.switched = f->switched, q.noise = f->noise;
+    if (AC_NR > 0) fmu_find_noise(f);
     for (int i = 0; i < AC_N; i++) f->atol[i] = 0.1 * f->s.rtol * ac_nominal[i];
     memcpy(w->z, f->s.z, sizeof w->z);
     const int result = AC_N > 0 ? ac_advance(&q, w, &f->s.control) : AC_DONE;

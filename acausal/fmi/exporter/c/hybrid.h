@@ -6,6 +6,7 @@
    (start, interval). A model without events has none of these, and nothing here takes any time. */
 
 #define FMU_BEHIND 1e-10 /* in nominal values of what is in the condition */
+#define FMU_ROUNDING 1e-13 /* values of a condition this small, in units of what is in it, are rounding */
 #define FMU_NOISE 1e-9 /* a condition that is no further from its switch, in units of what is in it, is there by rounding */
 
 static void fmu_put(fmu_instance *f, int slot, double value, int *changed) {
@@ -118,6 +119,21 @@ static void fmu_release(fmu_instance *f) {
     for (int k = 0; k < FMU_CONDITIONS; k++) fmu_put(f, fmu_condition_slot[k], 0.0, &changed);
 }
 
+/* Largest value of the variables in a condition, or nominal value; those that move between events, or all. */
+static double fmu_root_size(const fmu_instance *f, int root, int moving_only) {
+    double size = 0.0;
+    for (int e = fmu_root_first[root]; e < fmu_root_first[root + 1]; e++)
+        if (!moving_only || fmu_root_moves[e])
+            size = ac_max(size, ac_max(fabs(f->all[fmu_root_variable[e]]), fmu_root_nominal[e]));
+    return size;
+}
+
+/* What of each function of a condition is rounding: nothing where it depends on time and discrete variables only. */
+static AC_UNUSED void fmu_find_noise(fmu_instance *f) {
+    ac_observe(&fmu_prepare(f)->m, f->s.t, f->s.z, f->all);
+    for (int k = 0; k < AC_NR; k++) f->noise[k] = FMU_ROUNDING * fmu_root_size(f, k, 1);
+}
+
 static int fmu_by_rounding(fmu_instance *f) {
     ac_observe(&fmu_prepare(f)->m, f->s.t, f->s.z, f->all);
     for (int k = 0; k < FMU_SLOTS; k++)
@@ -125,9 +141,7 @@ static int fmu_by_rounding(fmu_instance *f) {
     for (int k = 0; k < AC_NR; k++) {
         const int slot = ac_root_slot[k];
         if (slot < 0 || !f->slot_changed[slot - FMU_FIRST_SLOT]) continue;
-        double scale = fmu_root_first[k] == fmu_root_first[k + 1] ? 1.0 : 0.0;
-        for (int e = fmu_root_first[k]; e < fmu_root_first[k + 1]; e++)
-            scale = ac_max(scale, ac_max(fabs(f->all[fmu_root_variable[e]]), fmu_root_nominal[e]));
+        const double scale = fmu_root_first[k] == fmu_root_first[k + 1] ? 1.0 : fmu_root_size(f, k, 0);
         if (!(fabs(f->roots[k]) <= FMU_NOISE * scale)) return 0;
     }
     return 1;

@@ -14,7 +14,6 @@
 #define AC_TANGENTS
 #define AC_LANES 1
 #include "equations.c"
-#include "initialize.h"
 #include "stepping.h"
 
 enum { FMU_OK, FMU_WARNING, FMU_DISCARD, FMU_ERROR, FMU_FATAL }; /* as in FMI 2 and 3 */
@@ -76,6 +75,7 @@ struct fmu_instance {
     ac_vector dp[AC_NP + 1], dc[AC_NC + 1], dz[AC_N + 1], df[AC_N + 1], dall[AC_NALL + 1];
     double roots[AC_NR + 1], events[FMU_EVENT_VALUES + 1], due_interval; /* at events */
     unsigned char slot_changed[FMU_SLOTS + 1], due[FMU_SAMPLES + 1];
+    double noise[AC_NR + 1];
     int switched[AC_NR + 1];
     unsigned long long tried[FMU_TURNS + 1];
     ac_work work;

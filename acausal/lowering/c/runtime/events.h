@@ -55,13 +55,13 @@ static int ac_any(const ac_work *w, const double *g) {
     return 0;
 }
 
-/* Conditions that disagree with their mode at the start of a run by rounding have some slack until they agree. */
-static void ac_arm(ac_work *w, double t) {
+/* Conditions that are at their switch at the start of a run but for rounding have some slack until they are away from it. */
+static void ac_arm(const ac_problem *q, ac_work *w, double t) {
     ac_inputs(w, t);
     ac_roots(&w->m, t, w->z, w->g0);
     memset(w->slack, 0, sizeof w->slack);
     for (int k = 0; k < AC_NR; k++)
-        if (ac_switched(w, w->g0, k)) w->slack[k] = 10.0 * fabs(w->g0[k]) + 1e-12;
+        if (ac_switched(w, w->g0, k) || fabs(w->g0[k]) < q->noise[k]) w->slack[k] = 10.0 * fabs(w->g0[k]) + q->noise[k];
 }
 
 /* The solution within a step, 0 <= s <= 1. */
@@ -152,14 +152,8 @@ static int ac_ends(ac_work *w, double t1) {
     return 0;
 }
 
-/* Shortens the step that w holds to the first switch in it. 1: it now ends there; 0: nothing switches; -1: failure.
-   In the end w has the stages and factors of the step of size *step, and z1 (consistent) at its end. */
-static int ac_to_switch(ac_work *w, double t, double *step) {
-    const double h = *step;
-    for (int r = 0; r < 3; r++) ac_combine(w, ac_H[r], NULL, w->v[r]);
-    double s = ac_first_switch(w, t, h, ac_dense_curve, NULL);
-    if (s > 1.0) return 0;
-    /* rates at which the conditions pass, on the dense output */
+/* Rates at which the conditions pass their switch at s, on the dense output, and which of them have switched there. */
+static void ac_passing(ac_work *w, double t, double h, double s) {
     const double aside = ac_max(1e-6, 1e-12 * fabs(t / h)), back = s > aside ? s - aside : 0.0;
     ac_at(w, t, h, ac_dense_curve, NULL, back, w->g1);
     ac_at(w, t, h, ac_dense_curve, NULL, s, w->g3);
@@ -168,37 +162,69 @@ static int ac_to_switch(ac_work *w, double t, double *step) {
         w->rate[k] = (ac_beyond(w, w->g3, k, &at_zero) - ac_beyond(w, w->g1, k, &at_zero)) / (s - back);
         w->candidate[k] = ac_switched(w, w->g3, k);
     }
-    double further = 2e-16 * ac_max(fabs(t / h), 1.0);
-    for (int turn = 0; turn < 40; turn++) {
+}
+
+/* How far, in parts of the step, its end is behind the switch of what has switched there or is to switch. */
+static double ac_overshoot(const ac_work *w) {
+    double over = -INFINITY;
+    for (int k = 0; k < AC_NR; k++) {
+        int at_zero;
+        if (!w->candidate[k] && !ac_switched(w, w->g2, k)) continue;
+        const double by = (ac_beyond(w, w->g2, k, &at_zero) - w->slack[k]) / w->rate[k];
+        if (w->rate[k] > 0.0 && by - by == 0.0) over = ac_max(over, by);
+    }
+    return over;
+}
+
+/* Steps to the switch that the dense output has at s: 1, with z1 behind it; 0 if there is none within reach; -1. */
+static int ac_land(ac_work *w, double t, double h, double s, double *step) {
+    double before = 0.0, behind = 2.0, further = 2e-16 * ac_max(fabs(t / h), 1.0);
+    for (int turn = 0; turn < 60; turn++) {
         if (s > 1.0) s = 1.0;
         if (ac_again(w, t, s * h) || ac_ends(w, t + s * h)) return -1;
-        double over = -INFINITY;
-        for (int k = 0; k < AC_NR; k++) {
-            int at_zero;
-            if (!w->candidate[k] && !ac_switched(w, w->g2, k)) continue;
-            const double by = (ac_beyond(w, w->g2, k, &at_zero) - w->slack[k]) / w->rate[k];
-            if (w->rate[k] > 0.0 && by - by == 0.0) over = ac_max(over, by);
-        }
-        const int behind = ac_any(w, w->g2);
-        const int close = fabs(over) <= 1e-12 + 4e-16 * fabs(t / h);
-        if (behind && (close || turn > 6 || !(over > 0.0))) {
-            *step = s * h;
-            if (AC_N > AC_NX) { /* the factors of the step, which Newton's method has replaced */
-                ac_inputs(w, t);
-                ac_field_jacobian(&w->m, t, w->z, w->f, w->ft, w->J);
-                if (ac_factorise(w, 1.0 / (ac_gamma * *step))) return -1;
+        const double over = ac_overshoot(w), near = 1e-12 + 4e-16 * fabs(t / h);
+        if (ac_any(w, w->g2)) {
+            if (fabs(over) <= near || s - before <= near || !(over > -INFINITY)) {
+                *step = s * h;
+                return 1;
             }
-            return 1;
-        }
-        if (behind) {
-            s = ac_max(s - over, 1e-3 * s);
+            behind = s;
+            s = over > 0.0 && s - over > before ? s - over : 0.5 * (before + behind);
             continue;
         }
-        if (s >= 1.0) break;
-        if (turn < 4 && over < 0.0 && over > -0.5) s -= over;
+        before = s;
+        if (behind > 1.0 && (s >= 1.0 || further > 1e-6)) return 0;
+        if (over < 0.0 && over > -0.1) s -= over;
         s += further, further *= 4.0;
+        if (s >= behind) s = 0.5 * (before + behind);
     }
-    return ac_again(w, t, h) ? -1 : 0; /* on the dense output only: the step as it was */
+    return 0;
+}
+
+/* Shortens the step that w holds to the first switch in it. 1: it now ends there; 0: nothing switches; -1: failure.
+   In the end w has the stages and factors of the step of size *step, and z1 (consistent) at its end. What is a switch on
+   the dense output only, by rounding, gets some slack. */
+static int ac_to_switch(ac_work *w, double t, double *step) {
+    const double h = *step;
+    for (int attempt = 0; attempt <= AC_NR; attempt++) {
+        for (int r = 0; r < 3; r++) ac_combine(w, ac_H[r], NULL, w->v[r]);
+        const double s = ac_first_switch(w, t, h, ac_dense_curve, NULL);
+        if (s > 1.0) return 0;
+        ac_passing(w, t, h, s);
+        const int found = ac_land(w, t, h, s, step);
+        if (found < 0) return -1;
+        if (found) {
+            if (AC_N == AC_NX) return 1;
+            ac_inputs(w, t); /* the factors of the step, which Newton's method for its end has replaced */
+            ac_field_jacobian(&w->m, t, w->z, w->f, w->ft, w->J);
+            return ac_factorise(w, 1.0 / (ac_gamma * *step)) ? -1 : 1;
+        }
+        for (int k = 0; k < AC_NR; k++)
+            if (w->candidate[k]) w->slack[k] = ac_max(2.0 * w->slack[k], 10.0 * fabs(w->g3[k]) + 1e-300);
+        *step = h;
+        if (ac_again(w, t, h)) return -1;
+    }
+    return 0;
 }
 
 /* After a step whose end has the values g2: tells what has switched, or goes on from there. */
@@ -209,11 +235,8 @@ static void ac_note(ac_problem *q, ac_work *w, int event) {
             continue;
         }
         w->g0[k] = w->g2[k];
-        if (w->slack[k] > 0.0) {
-            const double slack = w->slack[k];
-            w->slack[k] = 0.0;
-            if (ac_switched(w, w->g2, k)) w->slack[k] = slack;
-        }
+        int at_zero;
+        if (ac_beyond(w, w->g2, k, &at_zero) < -w->slack[k]) w->slack[k] = 0.0;
     }
 }
 #endif

@@ -41,6 +41,11 @@ static int ac_cut(const ac_problem *q, ac_work *w, ac_explicit_work *e, double t
             return 1;
         }
         if (s == 1.0) return 0;
+        if (turn > 12) { /* by rounding, on the curve only */
+            for (int k = 0; k < AC_NR; k++)
+                if (ac_switched(w, w->g3, k)) w->slack[k] = ac_max(2.0 * w->slack[k], 10.0 * fabs(w->g3[k]) + 1e-300);
+            return 0;
+        }
         s = ac_min(s + further, 1.0), further *= 4.0;
     }
     return 0;
@@ -75,7 +80,7 @@ static int ac_fixed_steps(ac_problem *q, ac_work *w, ac_explicit_work *e) {
         memcpy(q->z_out + q->saved * AC_N, w->z, sizeof w->z);
     q->step = q->first_step;
 #if AC_NR > 0
-    if (q->located) ac_arm(w, q->t0);
+    if (q->located) ac_arm(q, w, q->t0);
 #endif
     for (long n = 0; n < count; n++) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
@@ -193,7 +198,7 @@ static int ac_adams(ac_problem *q, ac_work *w, ac_explicit_work *e) {
     for (; q->saved < q->n_save && ac_due(q, q->save[q->saved], q->t0, direction, 0); q->saved++)
         memcpy(q->z_out + q->saved * AC_N, w->z, sizeof w->z);
 #if AC_NR > 0
-    if (q->located) ac_arm(w, q->t0);
+    if (q->located) ac_arm(q, w, q->t0);
 #endif
     while (direction * (q->t1 - q->t_end) > 0.0) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;

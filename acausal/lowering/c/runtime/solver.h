@@ -33,6 +33,7 @@ typedef struct {
     int located;                   /* events end the run */
     int open;                      /* nothing is saved at t1 */
     double step;                   /* to go on with after t_end */
+    const double *noise;           /* (AC_NR) values this small of a condition are rounding */
     int *switched;                 /* (AC_NR) conditions that have switched at t_end */
 } ac_problem;
 
@@ -310,7 +311,7 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
     while (q->saved < q->n_save && direction * (q->save[q->saved] - t) <= (q->open && t == q->t1 ? -1e300 : 0.0))
         ac_save(q, q->saved++, 0.0, w, tangents);
 #if AC_NR > 0
-    if (q->located) ac_arm(w, t);
+    if (q->located) ac_arm(q, w, t);
 #endif
     while (direction * (q->t1 - t) > 0.0) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;

@@ -14,7 +14,7 @@ static AC_UNUSED int ac_advance(ac_problem *q, ac_work *w, ac_control *k) {
     double t = q->t_end;
     int forced = 0, fresh = 0, cut = 0;
 #if AC_NR > 0
-    if (q->located) ac_arm(w, t);
+    if (q->located) ac_arm(q, w, t);
 #endif
     if (!(k->h > 0.0)) {
         ac_inputs(w, t);
@@ -79,15 +79,9 @@ static AC_UNUSED int ac_advance(ac_problem *q, ac_work *w, ac_control *k) {
         q->t_end = t;
         fresh = 0;
 #if AC_NR > 0
-        if (event) {
-            for (int i = 0; i < AC_NR; i++) q->switched[i] = ac_switched(w, w->g2, i);
-            return AC_EVENT;
-        }
-        for (int i = 0; q->located && i < AC_NR; i++) { /* the slack is there until mode and value agree */
-            const double slack = w->slack[i];
-            w->g0[i] = w->g2[i];
-            w->slack[i] = 0.0;
-            if (slack > 0.0 && ac_switched(w, w->g2, i)) w->slack[i] = slack;
+        if (q->located) {
+            ac_note(q, w, event);
+            if (event) return AC_EVENT;
         }
 #endif
     }
