@@ -42,10 +42,12 @@ class Crane(Component):
     controller: blocks.LimPI = blocks.LimPI(Kp=6.0, Ki=2.0)
     supply: PartialSupply = SimplifiedSupply(V_disp=2.5e-4, omega=25.0, p_tank=p_tank)
     cylinder: hyd.PartialCylinder = hyd.SimplifiedCylinder(bore=0.25, rod=0.18, F_start=F_start, p_b_start=p_tank)
-    joint: planar.CylinderJoint = planar.CompliantJoint(
+    joint: planar.PartialCylinderJoint = planar.CompliantJoint(
         a=a, b=b, alpha=alpha, beta=beta, L0=L0, k=2e8, c=2e6, F_start=F_start
     )
-    boom: planar.Boom = planar.Boom(m=m, r=r, I=1.008e6, g=g, phi=start(phi_start, fixed=True, state_select="prefer"))
+    boom: planar.PartialBoom = planar.Boom(
+        m=m, r=r, I=1.008e6, g=g, phi=start(phi_start, fixed=True, state_select="prefer")
+    )
     x: Variable = Variable(unit="m", doc="displacement of the piston")
     x_ref: Variable = Variable(unit="m", doc="displacement asked for")
     u: Variable = Variable(unit="1", doc="flow gain")

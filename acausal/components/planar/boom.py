@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from acausal import PI, Component, Equations, Parameter, Variable, cos, der, sin, sqrt
 
-from . import rotational, translational
+from .. import rotational, translational
 
 
-class Boom(Component):
-    """Rigid boom on a revolute joint under gravity: ``dphi/dt = w``, ``I dw/dt = flange.tau - m g r cos(phi)``.
+class PartialBoom(Component, partial=True):
+    """Rigid boom on a revolute joint under gravity; subclasses give the law of motion for `w` = dphi/dt.
 
-    Source: Eqs. 18 and 19.
+    Source: Fig. 10.
     """
 
     flange: rotational.Flange = rotational.Flange()
@@ -29,15 +29,24 @@ class Boom(Component):
         yield from super().equations()
         yield self.phi == self.flange.phi
         yield der(self.phi) == self.w
+
+
+class Boom(PartialBoom):
+    """Rigid boom on a revolute joint under gravity: ``dphi/dt = w``, ``I dw/dt = flange.tau - m g r cos(phi)``.
+
+    Source: Eqs. 18 and 19.
+    """
+
+    def equations(self) -> Equations:
+        yield from super().equations()
         yield self.I * der(self.w) == self.flange.tau - self.m * self.g * self.r * cos(self.phi)
 
 
-class CylinderJoint(Component, partial=True):
-    """Joint between a cylinder's rod (`rod`) and a boom (`boom`); subclasses say what holds them together.
+class PartialCylinderJoint(Component, partial=True):
+    """Geometry of the joint between a cylinder's rod (`rod`) and a boom (`boom`); subclasses give the forces.
 
     ``gamma = phi + pi/2 - alpha - beta``, ``L = sqrt(a^2 + b^2 - 2 a b cos(gamma))``, ``h = a b sin(gamma)/L =
-    dL/dphi``; the force `F` of the rod on the boom makes the torque ``F h``. `s_rel` is how far the rod stands ahead
-    of the boom.
+    dL/dphi``. `s_rel` is how far the rod stands ahead of the boom.
 
     Source: Eq. 17 and Fig. 10.
     """
@@ -52,7 +61,6 @@ class CylinderJoint(Component, partial=True):
     gamma: Variable = Variable(unit="rad", doc="angle between the two attachments")
     L: Variable = Variable(unit="m", start=3.0, doc="distance of the two attachments")
     h: Variable = Variable(unit="m", start=1.0, doc="lever of the cylinder's force about the boom joint")
-    F: Variable = Variable(unit="N", nominal=1e5, doc="force of the rod on the boom, positive when it lifts")
     s_rel: Variable = Variable(unit="m", doc="rod's position minus that of the boom's eye, s - (L - L0)")
 
     def equations(self) -> Equations:
@@ -61,6 +69,20 @@ class CylinderJoint(Component, partial=True):
         yield self.L == sqrt(self.a**2 + self.b**2 - 2 * self.a * self.b * cos(self.gamma))
         yield self.h == self.a * self.b * sin(self.gamma) / self.L
         yield self.s_rel == self.rod.s - (self.L - self.L0)
+
+
+class CylinderJoint(PartialCylinderJoint, partial=True):
+    """Joint between a cylinder's rod and a boom; subclasses say what holds them together.
+
+    The force `F` of the rod on the boom makes the torque ``F h``.
+
+    Source: Eq. 17 and Fig. 10.
+    """
+
+    F: Variable = Variable(unit="N", nominal=1e5, doc="force of the rod on the boom, positive when it lifts")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
         yield self.rod.f == self.F
         yield self.boom.tau == -self.F * self.h
 
