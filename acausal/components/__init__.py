@@ -1,6 +1,6 @@
-"""Component libraries, one module a domain; names and signs follow the Modelica Standard Library 4.0.
+"""Component libraries, one package or module a domain; names and signs follow the Modelica Standard Library 4.0.
 
-`blocks`, `electrical`, `translational`, `rotational`, `thermal`, `planar` and the package `hydraulic` are imported by
+`blocks`, `electrical`, `translational`, `rotational`, `thermal`, `planar`, `hydraulic` and `bondgraph` are imported by
 name: ``from acausal.components import electrical``. All quantities are in SI units. Flow variables are positive into
 the component.
 """

@@ -9,13 +9,13 @@ from typing import Any
 import pytest
 
 from acausal import Component, Connector
-from acausal.components import blocks, electrical, examples, rotational, thermal, translational
+from acausal.components import blocks, bondgraph, electrical, examples, hydraulic, rotational, thermal, translational
 
 from .test_library import is_partial, named, public_classes
 
 PACKAGES: dict[str, ModuleType] = {
     "blocks": blocks, "electrical": electrical, "rotational": rotational, "thermal": thermal,
-    "translational": translational,
+    "translational": translational, "bondgraph": bondgraph,
 }  # fmt: skip
 
 
@@ -34,7 +34,7 @@ def namespace(package: str) -> dict[str, Any]:
     names: dict[str, Any] = {}
     for other in (*PACKAGES, package):
         names.update({k: v for k, v in vars(PACKAGES[other]).items() if not k.startswith("_")})
-    names.update(PACKAGES)
+    names.update({**PACKAGES, "hydraulic": hydraulic})
     names.update({k: getattr(examples, k) for k in examples.__all__})
     return names
 

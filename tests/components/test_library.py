@@ -10,11 +10,11 @@ import pytest
 
 import acausal as ac
 from acausal import Array, Component, Connector
-from acausal.components import blocks, electrical, hydraulic, planar, rotational, thermal, translational
+from acausal.components import blocks, bondgraph, electrical, hydraulic, planar, rotational, thermal, translational
 
 from .examples import CRANES, EXAMPLES, simulated
 
-MODULES = (blocks, electrical, hydraulic, planar, rotational, thermal, translational)
+MODULES = (blocks, bondgraph, electrical, hydraulic, planar, rotational, thermal, translational)
 
 
 def public_classes() -> list[type[Component]]:
