@@ -234,7 +234,8 @@ def _children() -> float:
 class CvodeProgram:
     """The hand-written C program with CVODE, built with `cc` from the path of its source.
 
-    Its time is what it prints itself, or the mean CPU time of its runs if that is less; the trajectory comes from `cvode_grid.c`, which takes the same steps.
+    Its time is what it prints itself, or the mean CPU time of its runs if that is less; the trajectory
+    comes from `cvode_grid.c`, which takes the same steps.
     """
 
     LIBRARIES = ("cvode", "nvecserial", "sunmatrixdense", "sunlinsoldense")

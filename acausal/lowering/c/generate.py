@@ -227,7 +227,9 @@ class _Small:
     def switches(self) -> list[str]:
         """The functions whose change of sign is an event, and further ones."""
         return [
-            self._function(f"AC_UNUSED static void {name}({_AT}, double *g)", [(f"g[{k}]", e) for k, e in enumerate(es)])
+            self._function(
+                f"AC_UNUSED static void {name}({_AT}, double *g)", [(f"g[{k}]", e) for k, e in enumerate(es)]
+            )
             for name, es in {"ac_roots": self.switching, **self.further}.items()
         ]
 
