@@ -97,6 +97,8 @@ class Split:
         version: str = "2.0",
         outputs: Sequence[str] = (),
         parameters: Mapping[str, float] | None = None,
+        solver: str = "rodas5p",
+        dt: float | None = None,
     ) -> dict[str, FmuParticipant]:
         """Both sides exported as functional mock-up units and loaded, for `cosimulation(participants=...)`.
 
@@ -105,6 +107,8 @@ class Split:
             version: of FMI. Units of 2.0 take the slopes of inputs along, those of 3.0 the means over a step.
             outputs: names of variables of the whole model to give out.
             parameters: values by name of the whole model.
+            solver: inside the units, as of `export`.
+            dt: step of ``"rk4"`` [s].
         """
         from .exporter.export import export
         from .fmu import load
@@ -112,7 +116,7 @@ class Split:
         made: dict[str, FmuParticipant] = {}
         for side, name, system in self._sides():
             known = set(system.stages.flat.names.all_variables)
-            path = export(system, Path(folder) / f"{name}.fmu", version=version, kind="cs")
+            path = export(system, Path(folder) / f"{name}.fmu", version=version, kind="cs", solver=solver, dt=dt)
             made[name] = load(path).participant(
                 outputs=[n for n in outputs if n in known],
                 parameters={k: v for k, v in (parameters or {}).items() if k in system.parameters},

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from .binaries import library, place_of, this_platform
 from .description import Description, build_description, write
-from .source import KINDS, equations, fixed_files, tables
+from .source import KINDS, SOLVERS, equations, fixed_files, tables
 from .structure import Dependence
 from .variables import ExportError, collect
 
@@ -32,11 +32,12 @@ def export(
     stop: float = 1.0,
     tolerance: float = 1e-6,
     step: float = 0.01,
+    solver: str = "rodas5p",
+    dt: float | None = None,
 ) -> Path:
     """Write a system as a functional mock-up unit with sources and binaries.
 
-    All parameters are tunable, inputs and outputs are those of the model; co-simulation steps are made by the stiff
-    method Rodas5P.
+    All parameters are tunable, inputs and outputs are those of the model.
 
     Args:
         system: a compiled system.
@@ -49,18 +50,22 @@ def export(
         stop: end of the default experiment [s].
         tolerance: relative tolerance of the default experiment.
         step: step of the default experiment [s].
+        solver: inside a communication step: ``"rodas5p"`` (stiff), or, of the explicit methods, ``"adams"`` (variable
+            order and step) or ``"rk4"`` (classical Runge-Kutta).
+        dt: largest step of ``"rk4"`` [s]; a communication step is cut into equal parts.
 
     Returns:
         the path.
 
     Raises:
-        ExportError: a version, kind or platform that there is not, a parameter without a value, a model that is too
-            large, or the compiler failed.
+        ExportError: a version, kind, solver or platform that there is not, a parameter without a value, a model that is
+            too large, or the compiler failed.
         NotInC: the model calls Python functions.
         NoCompiler: there is no C compiler on this machine.
     """
     place, system = Path(path), system.located
     kinds = _checked(version, kind)
+    _check_solver(solver, dt)
     targets = (this_platform(),) if platforms is None else tuple(platforms)
     identifier = re.sub(r"\W", "_", place.stem, flags=re.ASCII)
     identifier = identifier if re.match(r"[A-Za-z_]", identifier) else f"_{identifier}"
@@ -68,7 +73,7 @@ def export(
     if len(set(places)) < len(places):
         raise ExportError(f"FMI {version} has one name for two of the platforms {', '.join(targets)}")
     table = collect(system, version)
-    code = equations(system) + tables(system, table, kinds)
+    code = equations(system) + tables(system, table, kinds, solver, dt)
     fixed = fixed_files(version)
     main = f"fmi{version[0]}.c"
     description = Description(
@@ -94,6 +99,15 @@ def _checked(version: str, kind: Sequence[str]) -> tuple[str, ...]:
     if wrong or not wanted:
         raise ExportError(f"kind={kind!r}: an FMU offers 'me' (model exchange), 'cs' (co-simulation), or both")
     return tuple(k for k in KINDS if k in wanted)
+
+
+def _check_solver(solver: str, dt: float | None) -> None:
+    if solver not in SOLVERS:
+        raise ExportError(f"solver={solver!r} is not one of {', '.join(SOLVERS)}")
+    if (solver == "rk4") != (dt is not None):
+        raise ExportError("'rk4', and no other method, takes fixed steps inside the unit: give the step, `dt=1e-4`")
+    if dt is not None and not 0.0 < dt < float("inf"):
+        raise ExportError(f"dt={dt!r}: the step inside the unit must be positive")
 
 
 def _token(code: str, fixed: Mapping[str, str], identifier: str) -> str:

@@ -22,6 +22,8 @@ LARGEST = 20_000
 FIXED = ("instance.h", "hybrid.h", "values.h", "advance.h", "directional.h")
 MORE_RUNTIME = ("stepping.h",)
 KINDS = ("me", "cs")
+SOLVERS = ("rodas5p", "rk4", "adams")
+"""Methods of co-simulation; the position is the number in ``instance.h``."""
 
 
 def equations(system: System) -> str:
@@ -49,8 +51,10 @@ def equations(system: System) -> str:
     return to_c(system.program, system.initial, label, roots=roots, further=further, observe_tangent=True).text
 
 
-def tables(system: System, table: Sequence[FmuVariable], kinds: Sequence[str]) -> str:
-    """Sizes and arrays of ``instance.h``, to stand behind the equations."""
+def tables(
+    system: System, table: Sequence[FmuVariable], kinds: Sequence[str], solver: str, dt: float | None
+) -> str:
+    """Sizes, arrays and the method of ``instance.h``, to stand behind the equations."""
     starts, flat, low = Starts(system), system.stages.flat, system.lowered
     state = {int(v): k for k, v in enumerate(starts.ids[: starts.n_x])}
     wanted = len(starts.ids) - starts.n_x - starts.n_w
@@ -65,6 +69,7 @@ def tables(system: System, table: Sequence[FmuVariable], kinds: Sequence[str]) -
         f"#define AC_NS {len(flat.start)}", f"#define FMU_VARIABLES {len(table)}",
         f"#define FMU_STARTS {len(starts.ids)}", f"#define FMU_WANTED {wanted}",
         f"#define FMU_KINDS {mask}", f'#define FMU_NAME "{system.name}"',
+        f"#define FMU_SOLVER {SOLVERS.index(solver)}", f"#define FMU_DT {0.0 if dt is None else dt!r}",
         array("unsigned char", "fmu_kind", [int(v.place) for v in table]),
         array("int", "fmu_index", [v.index for v in table]),
         array("signed char", "fmu_sign", [v.sign for v in table]),

@@ -56,6 +56,21 @@ static int fmu_terminate(fmu_instance *f) {
     return status;
 }
 
+/* The method of the unit from q->t0 to q->t1. The explicit ones begin anew in every communication step, since inputs jump
+   there; Adams begins with a step that those before it suggest. */
+static int fmu_solve(fmu_instance *f, ac_problem *q, ac_work *w) {
+#if FMU_SOLVER == FMU_RODAS5P
+    return ac_advance(q, w, &f->s.control);
+#else
+    const double span = q->t1 - q->t0;
+    q->method = FMU_SOLVER == FMU_RK4 ? AC_RK4 : AC_ADAMS;
+    q->first_step = FMU_SOLVER == FMU_RK4 ? span / ceil(span / FMU_DT - 1e-9) : ac_min(f->s.control.h, span);
+    const int result = FMU_SOLVER == FMU_RK4 ? ac_fixed_steps(q, w, &f->explicit_work) : ac_adams(q, w, &f->explicit_work);
+    if (q->accepted > 2) f->s.control.h = 0.5 * (q->t_end - q->t0) / q->accepted; /* fewer may be a rest, and tell nothing */
+    return result;
+#endif
+}
+
 /* Integrates to `stop`, or to the first event before it: AC_DONE, AC_EVENT or why it failed. */
 static int fmu_integrate(fmu_instance *f, double stop) {
     ac_work *w = fmu_prepare(f);
@@ -67,7 +82,7 @@ static int fmu_integrate(fmu_instance *f, double stop) {
     if (AC_NR > 0) fmu_find_noise(f);
     for (int i = 0; i < AC_N; i++) f->atol[i] = 0.1 * f->s.rtol * ac_nominal[i];
     memcpy(w->z, f->s.z, sizeof w->z);
-    const int result = AC_N > 0 ? ac_advance(&q, w, &f->s.control) : AC_DONE;
+    const int result = AC_N > 0 && stop > f->s.t ? fmu_solve(f, &q, w) : AC_DONE;
     memcpy(f->s.z, w->z, sizeof w->z);
     f->s.t = result == AC_DONE ? stop : q.t_end;
     fmu_forget(f);

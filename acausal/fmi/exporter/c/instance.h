@@ -13,6 +13,9 @@
 #define AC_EXPORT static AC_UNUSED
 #define AC_TANGENTS
 #define AC_LANES 1
+#define FMU_RODAS5P 0 /* values of FMU_SOLVER, the method of co-simulation; FMU_DT: largest step of RK4 [s] */
+#define FMU_RK4 1
+#define FMU_ADAMS 2
 #include "equations.c"
 #include "stepping.h"
 
@@ -79,6 +82,9 @@ struct fmu_instance {
     int switched[AC_NR + 1];
     unsigned long long tried[FMU_TURNS + 1];
     ac_work work;
+#if FMU_SOLVER != FMU_RODAS5P
+    ac_explicit_work explicit_work;
+#endif
     ac_initial initial;
 };
 
