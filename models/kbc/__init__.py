@@ -1,7 +1,7 @@
 """Knuckle boom crane of the paper: one `Crane`, whose parts are replaced for the variants.
 
-``reference_crane(hydraulics=..., joint=..., scenario=...)`` makes one of the four; `SIGNALS` and `PARAMETERS` map the
-symbols of the parameter table to dotted names.
+``reference_crane(hydraulics=..., joint=..., scenario=...)`` makes one of the four, with ``form="bonds"`` as a bond
+graph; `SIGNALS` and `PARAMETERS` map the symbols of the parameter table to dotted names.
 """
 
 from .crane import Crane as Crane

@@ -6,9 +6,11 @@ from __future__ import annotations
 from typing import Final, Literal
 
 from acausal import Component, modify, redeclare
+from acausal.components import bondgraph as bg
 from acausal.components import hydraulic as hyd
 from acausal.components import planar
 
+from . import bondgraph as bonds
 from .crane import Crane
 from .scenarios import scenario_source
 from .supply import ExtendedSupply
@@ -85,11 +87,28 @@ _COMPLIANT: Final[dict[str, str]] = {"k_c": "joint.k", "c_c": "joint.c"}
 PARAMETERS: Final[dict[str, str]] = {**_SHARED, **_EXTENDED, **_COMPLIANT}
 """Symbols of the parameter table -> the dotted name that `simulate(parameters=...)` takes, where the variant has it."""
 
+_PARTS: Final[dict[str, dict[str, dict[str, Component]]]] = {
+    "components": {
+        "simplified": {},
+        "extended": {"supply": ExtendedSupply(), "cylinder": hyd.ExtendedCylinder()},
+        "compliant": {},
+        "rigid": {"joint": planar.RigidJoint()},
+    },
+    "bonds": {
+        "simplified": {"supply": bonds.SimplifiedSupply(), "cylinder": bg.SimplifiedCylinder()},
+        "extended": {"supply": bonds.ExtendedSupply(), "cylinder": bg.ExtendedCylinder()},
+        "compliant": {"joint": bonds.CompliantJoint(), "boom": bonds.Boom()},
+        "rigid": {"joint": bonds.RigidJoint(), "boom": bonds.Boom()},
+    },
+}
+"""What takes the place of the parts of the simplified, compliant `Crane`, for each form and choice."""
+
 
 def reference_crane(
     hydraulics: Literal["extended", "simplified"] = "extended",
     joint: Literal["compliant", "rigid"] = "compliant",
     scenario: Literal["sine", "step", "endstop"] = "sine",
+    form: Literal["components", "bonds"] = "components",
     **symbols: float,
 ) -> Crane:
     """One variant of the reference crane; *extended* and *rigid* are redeclarations of the simplified, compliant
@@ -99,6 +118,7 @@ def reference_crane(
         hydraulics: ``extended`` (pump, pipe, valves, compressible oil) or ``simplified`` (ideal flow).
         joint: ``compliant`` (spring and damper) or ``rigid`` (constraint, index 3) between rod and boom.
         scenario: reference motion of the piston, see `scenario_source`.
+        form: parts from the libraries of the domains, or of bonds.
         **symbols: values of the parameter table in SI units; those of parts that the variant lacks have no effect.
 
     Raises:
@@ -108,18 +128,13 @@ def reference_crane(
     unknown = [symbol for symbol in symbols if symbol not in PARAMETERS]
     if unknown:
         raise TypeError(f"reference_crane has no parameter {', '.join(unknown)}; it has {', '.join(PARAMETERS)}")
-    parts: dict[str, Component] = {"reference": scenario_source(scenario)}
-    table = dict(_SHARED)
-    if hydraulics == "extended":
-        parts |= {"supply": ExtendedSupply(), "cylinder": hyd.ExtendedCylinder()}
-        table |= _EXTENDED
-    elif hydraulics != "simplified":
-        raise ValueError(f"hydraulics={hydraulics!r} is neither 'extended' nor 'simplified'")
-    if joint == "rigid":
-        parts["joint"] = planar.RigidJoint()
-    elif joint == "compliant":
-        table |= _COMPLIANT
-    else:
-        raise ValueError(f"joint={joint!r} is neither 'compliant' nor 'rigid'")
+    if form not in _PARTS:
+        raise ValueError(f"form={form!r} is neither 'components' nor 'bonds'")
+    for name, choice in (("hydraulics", hydraulics), ("joint", joint)):
+        if choice not in _PARTS[form]:
+            known = ("extended", "simplified") if name == "hydraulics" else ("rigid", "compliant")
+            raise ValueError(f"{name}={choice!r} is neither {known[0]!r} nor {known[1]!r}")
+    parts = {"reference": scenario_source(scenario), **_PARTS[form][hydraulics], **_PARTS[form][joint]}
+    table = _SHARED | (_EXTENDED if hydraulics == "extended" else {}) | (_COMPLIANT if joint == "compliant" else {})
     crane = redeclare(Crane(), parts)
     return modify(crane, {table[symbol]: float(value) for symbol, value in symbols.items() if symbol in table})

@@ -18,7 +18,6 @@ class PartialSupply(Component, partial=True):
     V_disp: Parameter = Parameter(2.5e-4, unit="m3", min=0.0, doc="displacement of the pump per revolution")
     omega: Parameter = Parameter(25.0, unit="1/s", doc="speed of the pump in revolutions per second")
     p_tank: Parameter = Parameter(1e5, unit="Pa", doc="pressure in the tank")
-    tank: hyd.Tank = hyd.Tank(p=p_tank)
 
 
 class SimplifiedSupply(PartialSupply):
@@ -27,6 +26,7 @@ class SimplifiedSupply(PartialSupply):
     Source: section 3.1 of the paper, Fig. 6, Eq. 2.
     """
 
+    tank: hyd.Tank = hyd.Tank(p=PartialSupply.p_tank)
     pump: hyd.MeteringPump = hyd.MeteringPump(V_disp=PartialSupply.V_disp, omega=PartialSupply.omega)
 
     def equations(self) -> Equations:
@@ -49,6 +49,7 @@ class ExtendedSupply(PartialSupply):
     Cd: Parameter = Parameter(0.65, unit="1", min=0.0, doc="discharge coefficient of every valve")
     p_tr: Parameter = Parameter(1e4, unit="Pa", min=0.0, doc="laminar transition pressure of every valve")
     A_leak: Parameter = Parameter(1e-9, unit="m2", min=0.0, doc="leakage area of every valve")
+    tank: hyd.Tank = hyd.Tank(p=PartialSupply.p_tank)
     pump: hyd.PressureCompensatedPump = hyd.PressureCompensatedPump(
         V_disp=PartialSupply.V_disp, omega=PartialSupply.omega, p_set=p_set, dp_full=1e6
     )
