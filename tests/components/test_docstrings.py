@@ -9,13 +9,23 @@ from typing import Any
 import pytest
 
 from acausal import Component, Connector
-from acausal.components import blocks, bondgraph, electrical, examples, hydraulic, rotational, thermal, translational
+from acausal.components import (
+    blocks,
+    bondgraph,
+    electrical,
+    examples,
+    hydraulic,
+    planar,
+    rotational,
+    thermal,
+    translational,
+)
 
 from .test_library import is_partial, named, public_classes
 
 PACKAGES: dict[str, ModuleType] = {
     "blocks": blocks, "electrical": electrical, "rotational": rotational, "thermal": thermal,
-    "translational": translational, "bondgraph": bondgraph,
+    "translational": translational, "bondgraph": bondgraph, "planar": planar,
 }  # fmt: skip
 
 

@@ -34,6 +34,10 @@ class PartialBoom(Component, partial=True):
 class Boom(PartialBoom):
     """Rigid boom on a revolute joint under gravity: ``dphi/dt = w``, ``I dw/dt = flange.tau - m g r cos(phi)``.
 
+    >>> values = run(assemble(boom=Boom(m=2.0, r=1.5, I=6.0, phi=start(0.5, fixed=True), w=start(0.0, fixed=True))))
+    >>> close(0.5 * 6.0 * values["boom.w"][-1] ** 2, 2.0 * 9.81 * 1.5 * (np.sin(0.5) - np.sin(values["boom.phi"][-1])))
+    True
+
     Source: Eqs. 18 and 19.
     """
 
@@ -58,7 +62,7 @@ class PartialCylinderJoint(Component, partial=True):
     alpha: Parameter = Parameter(0.2, unit="rad", doc="angle of the foot from the vertical")
     beta: Parameter = Parameter(0.3, unit="rad", doc="angle of the eye from the boom's axis")
     L0: Parameter = Parameter(2.6, unit="m", min=0.0, doc="length of the cylinder with the piston retracted")
-    gamma: Variable = Variable(unit="rad", doc="angle between the two attachments")
+    gamma: Variable = Variable(unit="rad", start=PI / 2, doc="angle between the two attachments")
     L: Variable = Variable(unit="m", start=3.0, doc="distance of the two attachments")
     h: Variable = Variable(unit="m", start=1.0, doc="lever of the cylinder's force about the boom joint")
     s_rel: Variable = Variable(unit="m", doc="rod's position minus that of the boom's eye, s - (L - L0)")
@@ -92,6 +96,12 @@ class CompliantJoint(CylinderJoint):
 
     At the start the boom is at rest and the spring carries `F_start`.
 
+    >>> model = assemble("eye.flange - joint.rod", "joint.boom - boom.flange", eye=translational.Fixed(s0=1.0),
+    ...                  joint=CompliantJoint(k=1e6, c=1e5), boom=Boom(m=100.0, r=4.0, I=2000.0))
+    >>> values = run(model, at=[0.0, 10.0])  # until it is at rest on the spring
+    >>> close(values["joint.F"][-1] * values["joint.h"][-1], 100.0 * 9.81 * 4.0 * np.cos(values["boom.phi"][-1]))
+    True
+
     Source: Eq. 16.
     """
 
@@ -113,6 +123,12 @@ class RigidJoint(CylinderJoint):
     """Ideal joint between rod and boom, ``0 = s_rel``; the force is an unknown.
 
     The compiler finds the constraints on velocity and acceleration that follow (structural index 3).
+
+    >>> model = assemble("eye.flange - joint.rod", "joint.boom - boom.flange", eye=translational.Fixed(s0=1.0),
+    ...                  joint=RigidJoint(), boom=Boom(m=100.0, r=4.0, I=2000.0))
+    >>> values = run(model)
+    >>> close(values["joint.F"][-1] * values["joint.h"][-1], 100.0 * 9.81 * 4.0 * np.cos(values["boom.phi"][-1]))
+    True
 
     Source: kinematics of Eq. 17 without the compliance of Eq. 16.
     """

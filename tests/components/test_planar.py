@@ -1,0 +1,292 @@
+"""Planar mechanics against closed solutions, hand-written equations of motion, and conservation laws."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+from scipy.special import ellipj, ellipk
+
+import acausal as ac
+from acausal import Component, Equations, Parameter, Variable, connect, inner, start
+from acausal.components import hydraulic, planar, rotational, translational
+from acausal.components.examples import assemble
+
+G = 9.81
+
+
+def simulate(model: Component, t: np.ndarray, rtol: float = 1e-10) -> ac.Solution:
+    return ac.compile(model).simulate(t1=float(t[-1]), saveat=t, rtol=rtol)
+
+
+def integrated(rate: Callable[[float, np.ndarray], list[float]], begin: list[float], t: np.ndarray) -> np.ndarray:
+    """The hand-written equations of motion, by an independent solver."""
+    result = solve_ivp(rate, (0.0, float(t[-1])), begin, method="DOP853", t_eval=t, rtol=1e-11, atol=1e-12)
+    return np.asarray(result.y)
+
+
+def energy(solution: ac.Solution, **bodies: tuple[float, float]) -> np.ndarray:
+    """Kinetic and potential energy of bodies, each given by mass and moment of inertia."""
+    total = np.zeros(len(solution.t))
+    for name, (m, inertia) in bodies.items():
+        speed = np.asarray(solution[f"{name}.v_x"]) ** 2 + np.asarray(solution[f"{name}.v_y"]) ** 2
+        total += 0.5 * m * speed + 0.5 * inertia * np.asarray(solution[f"{name}.w"]) ** 2
+        total += m * G * np.asarray(solution[f"{name}.r_y"])
+    return total
+
+
+def test_pendulum_swings_as_the_elliptic_functions_say() -> None:
+    amplitude, m, length, inertia = 2.5, 2.0, 1.3, 0.7
+    model = assemble(
+        "wall.frame - hinge.frame_a", "hinge.frame_b - rod.frame_a", "rod.frame_b - bob.frame_a",
+        planarWorld=inner(planar.PlanarWorld()), wall=planar.Fixed(r_x=3.0), rod=planar.FixedTranslation(r_x=length),
+        hinge=planar.Revolute(phi=start(amplitude - np.pi / 2, fixed=True), w=start(0.0, fixed=True)),
+        bob=planar.Body(m=m, I=inertia),
+    )  # fmt: skip
+    t = np.linspace(0.0, 10.0, 101)
+    solution = simulate(model, t)
+    frequency = np.sqrt(m * G * length / (inertia + m * length**2))
+    k = np.sin(amplitude / 2)
+    angle = 2 * np.arcsin(k * ellipj(ellipk(k**2) - frequency * t, k**2)[0])
+    assert len(solution.system.states) == 2
+    assert_allclose(solution["hinge.phi"] + np.pi / 2, angle, atol=1e-7)
+    assert_allclose(solution["bob.r_x"], 3.0 + length * np.sin(angle), atol=1e-7)
+
+
+def test_double_pendulum() -> None:
+    m1, m2, l1, l2 = 1.0, 2.0, 1.0, 0.7
+    model = assemble(
+        "wall.frame - one.frame_a", "one.frame_b - upper.frame_a", "upper.frame_b - first.frame_a - two.frame_a",
+        "two.frame_b - lower.frame_a", "lower.frame_b - second.frame_a", planarWorld=inner(planar.PlanarWorld()),
+        wall=planar.Fixed(), one=planar.Revolute(phi=start(0.3, fixed=True), w=start(0.0, fixed=True)),
+        two=planar.Revolute(phi=start(0.5, fixed=True), w=start(1.0, fixed=True)),
+        upper=planar.FixedTranslation(r_x=l1), lower=planar.FixedTranslation(r_x=l2),
+        first=planar.PointMass(m=m1), second=planar.PointMass(m=m2),
+    )  # fmt: skip
+
+    def rate(_: float, z: np.ndarray) -> list[float]:
+        """Angles p, q of both rods against the horizontal, from Lagrange's equations."""
+        p, q, u, v = z
+        matrix = np.array(
+            [[(m1 + m2) * l1**2, m2 * l1 * l2 * np.cos(p - q)], [m2 * l1 * l2 * np.cos(p - q), m2 * l2**2]]
+        )
+        right = [
+            -m2 * l1 * l2 * np.sin(p - q) * v**2 - (m1 + m2) * G * l1 * np.cos(p),
+            m2 * l1 * l2 * np.sin(p - q) * u**2 - m2 * G * l2 * np.cos(q),
+        ]
+        return [u, v, *np.linalg.solve(matrix, right)]
+
+    t = np.linspace(0.0, 3.0, 61)
+    solution = simulate(model, t)
+    p, q, _, _ = integrated(rate, [0.3, 0.8, 0.0, 1.0], t)
+    assert len(solution.system.states) == 4
+    assert_allclose(solution["one.phi"], p, atol=1e-6)
+    assert_allclose(solution["one.phi"] + solution["two.phi"], q, atol=1e-6)
+
+
+def test_pendulum_on_a_cart() -> None:
+    cart, bob, length, c, rest = 3.0, 1.0, 0.8, 40.0, 1.5
+    model = assemble(
+        "wall.frame - rail.frame_a - spring.frame_a", "rail.frame_b - cart.frame_a - hinge.frame_a - spring.frame_b",
+        "hinge.frame_b - rod.frame_a", "rod.frame_b - bob.frame_a", planarWorld=inner(planar.PlanarWorld()),
+        wall=planar.Fixed(), rail=planar.Prismatic(s=start(1.2, fixed=True), v=start(0.0, fixed=True)),
+        spring=planar.Spring(c=c, s_unstretched=rest), cart=planar.PointMass(m=cart), bob=planar.PointMass(m=bob),
+        hinge=planar.Revolute(phi=start(-1.0, fixed=True), w=start(0.0, fixed=True)),
+        rod=planar.FixedTranslation(r_x=length),
+    )  # fmt: skip
+
+    def rate(_: float, z: np.ndarray) -> list[float]:
+        s, p, v, w = z
+        matrix = [[cart + bob, -bob * length * np.sin(p)], [-np.sin(p), length]]
+        right = [bob * length * np.cos(p) * w**2 - c * (s - rest), -G * np.cos(p)]
+        return [v, w, *np.linalg.solve(matrix, right)]
+
+    t = np.linspace(0.0, 4.0, 81)
+    solution = simulate(model, t)
+    s, p, _, _ = integrated(rate, [1.2, -1.0, 0.0, 0.0], t)
+    assert_allclose(solution["rail.s"], s, atol=1e-7)
+    assert_allclose(solution["hinge.phi"], p, atol=1e-7)
+
+
+def slider_crank(**parts: Component) -> Component:
+    """Crank of 0.3 m, rod of 1 m, piston of 2 kg in a guide along x: a closed loop."""
+    parts = {"crank_joint": planar.Revolute(phi=start(0.3, fixed=True), w=start(5.0, fixed=True)), **parts}
+    extra = ["drive.flange - crank_joint.flange_a"] if "drive" in parts else []
+    return assemble(
+        "wall.frame - crank_joint.frame_a - guide.frame_a", "crank_joint.frame_b - crank.frame_a - wheel.frame_a",
+        "crank.frame_b - pin.frame_a", "pin.frame_b - rod.frame_a", "rod.frame_b - wrist.frame_a",
+        "wrist.frame_b - guide.frame_b - piston.frame_a", *extra, planarWorld=inner(planar.PlanarWorld()),
+        wall=planar.Fixed(), crank=planar.FixedTranslation(r_x=0.3), wheel=planar.Body(m=0.0, I=1.0),
+        rod=planar.FixedTranslation(r_x=1.0), pin=planar.Revolute(), wrist=planar.Revolute(),
+        guide=planar.Prismatic(s=start(1.2)), piston=planar.Body(m=2.0, I=0.2), **parts,
+    )  # fmt: skip
+
+
+def stroke(phi: np.ndarray) -> np.ndarray:
+    return 0.3 * np.cos(phi) + np.sqrt(1.0 - (0.3 * np.sin(phi)) ** 2)
+
+
+def test_slider_crank_turns_freely() -> None:
+    """Through both dead centres, where no choice of one coordinate holds; its energy stays."""
+    t = np.linspace(0.0, 10.0, 201)
+    solution = simulate(slider_crank(), t, rtol=1e-9)
+    phi = np.asarray(solution["crank_joint.phi"])
+    assert phi[-1] > 6 * np.pi
+    assert_allclose(solution["guide.s"], stroke(phi), atol=1e-9)
+    assert_allclose(energy(solution, wheel=(0.0, 1.0), piston=(2.0, 0.2)), np.full(201, energy_at_start()), rtol=1e-7)
+
+
+def energy_at_start() -> float:
+    slope = (stroke(np.array(0.3 + 1e-6)) - stroke(np.array(0.3 - 1e-6))) / 2e-6
+    return float(0.5 * 1.0 * 5.0**2 + 0.5 * 2.0 * (5.0 * slope) ** 2)
+
+
+def test_driven_slider_crank() -> None:
+    """At constant speed no state is left; the torque of the drive is the power of the piston by that speed."""
+    drive = rotational.Speed(exact=True, phi=start(0.3, fixed=True))
+    model = ac.modify(slider_crank(drive=drive, crank_joint=planar.Revolute(useFlange=True)), {"planarWorld.g_y": 0.0})
+
+    class Driven(Component):
+        mechanism: Component = model
+
+        def equations(self) -> Equations:
+            yield self.mechanism.drive.w_ref == 4.0  # type: ignore[attr-defined]
+
+    t = np.linspace(0.0, 2.0, 41)
+    solution = simulate(Driven(), t)
+    phi = 0.3 + 4.0 * t
+    assert_allclose(solution["mechanism.guide.s"], stroke(phi), atol=1e-8)
+    h = 1e-4
+    acceleration = 16.0 * (stroke(phi + h) - 2 * stroke(phi) + stroke(phi - h)) / h**2
+    slope = (stroke(phi + h) - stroke(phi - h)) / (2 * h)
+    assert_allclose(solution["mechanism.crank_joint.t"], 2.0 * acceleration * slope, atol=1e-5)
+
+
+def four_bar(last: Component) -> Component:
+    """Links of 1, 2 and 1.5 m, with masses, between points 2 m apart, closed by `last`."""
+    return assemble(
+        "left.frame - a.frame_a", "a.frame_b - crank.frame_a", "crank.frame_b - b.frame_a - one.frame_a",
+        "b.frame_b - coupler.frame_a", "coupler.frame_b - c.frame_a - two.frame_a", "c.frame_b - rocker.frame_a",
+        "rocker.frame_b - d.frame_a", "d.frame_b - right.frame", planarWorld=inner(planar.PlanarWorld()),
+        left=planar.Fixed(), right=planar.Fixed(r_x=2.0), crank=planar.FixedTranslation(r_x=1.0),
+        coupler=planar.FixedTranslation(r_x=2.0), rocker=planar.FixedTranslation(r_x=1.5),
+        a=planar.Revolute(phi=start(1.0, fixed=True), w=start(0.0, fixed=True)), b=planar.Revolute(phi=start(-1.0)),
+        c=planar.Revolute(phi=start(-1.0)), d=last, one=planar.Body(I=0.1), two=planar.Body(I=0.1),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_four_bar_linkage(engine: str) -> None:
+    t = np.linspace(0.0, 5.0, 101)
+    system = ac.compile(four_bar(planar.Revolute()))
+    solution = system.simulate(t1=5.0, saveat=t, rtol=1e-9, engine=engine)  # type: ignore[arg-type]
+    kept = energy(solution, one=(1.0, 0.1), two=(1.0, 0.1))
+    assert_allclose(kept, kept[0], rtol=1e-7)
+    x, y = np.asarray(solution["two.r_x"]), np.asarray(solution["two.r_y"])
+    assert_allclose((x - 2.0) ** 2 + y**2, 1.5**2, atol=1e-9)
+    assert_allclose((x - solution["one.r_x"]) ** 2 + (y - solution["one.r_y"]) ** 2, 4.0, atol=1e-9)
+    assert np.ptp(solution["a.phi"]) > np.pi
+
+
+def test_loop_closed_by_a_constraint() -> None:
+    t = np.linspace(0.0, 2.0, 21)
+    joint, constraint = (simulate(four_bar(last), t) for last in (planar.Revolute(), planar.RevoluteConstraint()))
+    assert_allclose(constraint["a.phi"], joint["a.phi"], atol=1e-7)
+    assert_allclose(constraint["right.frame.fx"], joint["right.frame.fx"], atol=1e-6)
+
+
+def test_springs_keep_momentum_and_angular_momentum() -> None:
+    """Two bodies in space, joined by a spring and damper between points off their centres."""
+
+    def body(x: float, v: float) -> planar.Body:
+        return planar.Body(
+            m=2.0, I=0.3, r_x=start(x, fixed=True), r_y=start(0.2 * x, fixed=True), v_x=start(0.1, fixed=True),
+            v_y=start(v, fixed=True), phi=start(x, fixed=True), w=start(v, fixed=True),
+        )  # fmt: skip
+
+    model = assemble(
+        "one.frame_a - left.frame_a", "left.frame_b - spring.frame_a", "two.frame_a - right.frame_a",
+        "right.frame_b - spring.frame_b", planarWorld=inner(planar.PlanarWorld(g_y=0.0)), one=body(0.0, 1.0),
+        two=body(2.0, -0.5), left=planar.FixedTranslation(r_x=0.2, r_y=0.3), right=planar.FixedTranslation(r_x=-0.4),
+        spring=planar.SpringDamper(c=30.0, d=0.5, s_unstretched=1.0),
+    )  # fmt: skip
+    solution = simulate(model, np.linspace(0.0, 3.0, 31))
+    spin = np.zeros(31)
+    for name in ("one", "two"):
+        r_x, r_y, v_x, v_y, w = (np.asarray(solution[f"{name}.{v}"]) for v in ("r_x", "r_y", "v_x", "v_y", "w"))
+        spin += 2.0 * (r_x * v_y - r_y * v_x) + 0.3 * w
+    assert_allclose(solution["one.v_x"] + solution["two.v_x"], 0.2, atol=1e-8)
+    assert_allclose(solution["one.v_y"] + solution["two.v_y"], 0.5, atol=1e-8)
+    assert_allclose(spin, spin[0], atol=1e-7)
+
+
+class Mechanism(Component, partial=True):
+    """What the rod of the crane's cylinder lifts, from an angle at which the cylinder is 3.6 m long."""
+
+    phi_start: Parameter = Parameter(float(np.arccos((13.0 - 3.6**2) / 12.0)) - np.pi / 2 + 0.5, unit="rad")
+    rod: translational.Flange = translational.Flange()
+    phi: Variable = Variable(unit="rad", doc="angle of the boom")
+
+
+class Formulas(Mechanism):
+    """The boom by the formulas of the paper."""
+
+    joint: planar.RigidJoint = planar.RigidJoint()
+    boom: planar.Boom = planar.Boom(m=11000.0, r=8.0, I=1.008e6, phi=start(Mechanism.phi_start, fixed=True))
+
+    def equations(self) -> Equations:
+        yield connect(self.joint.rod, self.rod)
+        yield connect(self.joint.boom, self.boom.flange)
+        yield self.phi == self.boom.phi
+
+
+class Parts(Mechanism):
+    """The boom of planar parts, with a line force between the cylinder's foot and eye."""
+
+    planarWorld: planar.PlanarWorld = inner(planar.PlanarWorld())
+    wall: planar.Fixed = planar.Fixed()
+    hinge: planar.Revolute = planar.Revolute(phi=start(Mechanism.phi_start, fixed=True))
+    to_foot: planar.FixedTranslation = planar.FixedTranslation(r_x=2.0 * np.sin(0.2), r_y=-2.0 * np.cos(0.2))
+    to_eye: planar.FixedTranslation = planar.FixedTranslation(r_x=3.0 * np.cos(0.3), r_y=-3.0 * np.sin(0.3))
+    to_load: planar.FixedTranslation = planar.FixedTranslation(r_x=8.0)
+    load: planar.Body = planar.Body(m=11000.0, I=1.008e6 - 11000.0 * 8.0**2)
+    line: planar.LineForce = planar.LineForce(s0=2.6, s=start(3.6))
+
+    def equations(self) -> Equations:
+        yield connect(self.wall.frame, self.hinge.frame_a, self.to_foot.frame_a)
+        yield connect(self.hinge.frame_b, self.to_eye.frame_a, self.to_load.frame_a)
+        yield connect(self.to_load.frame_b, self.load.frame_a)
+        yield connect(self.to_foot.frame_b, self.line.frame_a)
+        yield connect(self.to_eye.frame_b, self.line.frame_b)
+        yield connect(self.line.flange_b, self.rod)
+        yield self.phi == self.hinge.phi
+
+
+class Lift(Component):
+    """A cylinder that is filled by a pump and lifts a boom."""
+
+    oil: hydraulic.Oil = inner(hydraulic.Oil())
+    mechanism: Mechanism = Formulas()
+    cylinder: hydraulic.ExtendedCylinder = hydraulic.ExtendedCylinder(F_start=6e5)
+    pump: hydraulic.MeteringPump = hydraulic.MeteringPump()
+    tank: hydraulic.Tank = hydraulic.Tank()
+
+    def equations(self) -> Equations:
+        yield self.pump.u == 0.8 * ac.sin(0.5 * ac.time)
+        yield connect(self.tank.port, self.pump.port_a, self.cylinder.port_b)
+        yield connect(self.pump.port_b, self.cylinder.port_a)
+        yield connect(self.cylinder.flange, self.mechanism.rod)
+
+
+def test_boom_of_planar_parts_is_the_boom_of_the_paper() -> None:
+    t = np.linspace(0.0, 4.0, 81)
+    parts, formulas = (simulate(Lift(mechanism=m), t, rtol=1e-9) for m in (Parts(), Formulas()))
+    assert len(parts.system.states) == len(formulas.system.states)
+    assert np.ptp(formulas["mechanism.phi"]) > 0.1
+    for name in ("mechanism.phi", "cylinder.x", "cylinder.v", "cylinder.p_a", "cylinder.flange.f"):
+        assert_allclose(parts[name], formulas[name], rtol=1e-6, atol=1e-6 * np.ptp(formulas[name]), err_msg=name)
+    push = np.hypot(np.asarray(parts["mechanism.line.frame_a.fx"]), np.asarray(parts["mechanism.line.frame_a.fy"]))
+    assert_allclose(push, np.abs(formulas["cylinder.flange.f"]), rtol=1e-6)
