@@ -1,4 +1,4 @@
-"""Small models that use every public component at least once; the tests of this directory simulate them."""
+"""Small models of library components; the tests of this directory simulate them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ import numpy as np
 import acausal as ac
 from acausal import Array, Component, Equations, Parameter, connect, inner, start
 from acausal.components import blocks, electrical, hydraulic, planar, rotational, thermal, translational
-from models.kbc import reference_crane
 
 
 class ChargedCapacitor(Component):
@@ -481,14 +480,7 @@ EXAMPLES: dict[str, Component] = {
         Nonlinear(), Vessels(), Line(), Friction(), PressedCylinder(), HangingBoom(), Ladder(),
     )
 }  # fmt: skip
-"""Examples by name; the cranes below complete the coverage of the library."""
-
-CRANES: dict[str, Component] = {
-    f"{hydraulics}-{joint}": reference_crane(hydraulics, joint)
-    for hydraulics in ("simplified", "extended")
-    for joint in ("compliant", "rigid")
-}
-
+"""Examples by name."""
 
 TIMES = np.linspace(0.0, 1.0, 51)
 

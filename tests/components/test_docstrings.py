@@ -25,7 +25,7 @@ from .test_library import is_partial, named, public_classes
 
 PACKAGES: dict[str, ModuleType] = {
     "blocks": blocks, "electrical": electrical, "rotational": rotational, "thermal": thermal,
-    "translational": translational, "bondgraph": bondgraph, "planar": planar,
+    "translational": translational, "bondgraph": bondgraph, "planar": planar, "hydraulic": hydraulic,
 }  # fmt: skip
 
 
@@ -44,7 +44,7 @@ def namespace(package: str) -> dict[str, Any]:
     names: dict[str, Any] = {}
     for other in (*PACKAGES, package):
         names.update({k: v for k, v in vars(PACKAGES[other]).items() if not k.startswith("_")})
-    names.update({**PACKAGES, "hydraulic": hydraulic})
+    names.update(PACKAGES)
     names.update({k: getattr(examples, k) for k in examples.__all__})
     return names
 

@@ -15,6 +15,12 @@ class Chamber(Component):
     increasing s; with ``orientation = -1`` it shrinks, ``V = V0 + A (stroke - s)``.
     ``V/B dp/dt = port.q - dV/dt``; force on the piston ``orientation p A``.
 
+    >>> model = assemble("piston.flange - chamber.flange", "way.y - piston.s_ref", oil=ac.inner(Oil(B=1e9)),
+    ...                  piston=translational.Position(exact=True), way=blocks.Slope(slope=-0.1),
+    ...                  chamber=Chamber(A=1e-2, V0=5e-3, p=start(1e5, fixed=True)))
+    >>> close(run(model)["chamber.p"], [1e5, 1e5 - 1e9 * np.log(4e-3 / 5e-3)])
+    True
+
     Source: Eqs. 7 and 8.
     """
 
@@ -80,6 +86,12 @@ class SimplifiedCylinder(PartialCylinder):
     """Incompressible oil, no mass: ``port_a.q = area_a v``, ``port_b.q = -area_b v``, ``p_a area_a = p_b area_b -
     flange.f``.
 
+    >>> model = assemble("pump.port - cylinder.port_a", "tank.port - cylinder.port_b", "cylinder.flange - load.flange",
+    ...                  pump=Tank(p=2e6), tank=Tank(p=0.0), load=translational.PointMass(m=1e3),
+    ...                  cylinder=SimplifiedCylinder(bore=0.2, x=start(0.0, fixed=True), v=start(0.0, fixed=True)))
+    >>> close(run(model, at=[0.0, 0.1])["cylinder.v"][-1], 2e6 * np.pi / 4 * 0.2**2 / 1e3 * 0.1)
+    True
+
     Source: Eqs. 1, 3 and 4.
     """
 
@@ -95,6 +107,12 @@ class ExtendedCylinder(PartialCylinder):
 
     ``m dv/dt = p_a area_a - p_b area_b + F_bumper - c v + flange.f``.
     At the start the piston is at rest, and the pressures balance the load `F_start`.
+
+    >>> model = assemble("cylinder.flange - load.flange", oil=ac.inner(Oil()),
+    ...                  cylinder=ExtendedCylinder(F_start=1e5, x=start(0.8, fixed=True)),
+    ...                  load=translational.ConstantForce(f_constant=-1e5))
+    >>> run(model)["cylinder.x"]  # the oil in the closed chambers carries the load
+    [0.8, 0.8]
 
     Source: Eqs. 7, 8, 14 and 15.
     """

@@ -18,6 +18,12 @@ class HydraulicPort(Connector):
 class Oil(Component):
     """Properties of the oil, all constant; shared by declaring one ``inner`` and reading it as ``outer``.
 
+    >>> model = assemble("flow.y - pump.u", "tank.port - pump.port_a", "pump.port_b - volume.port", tank=Tank(),
+    ...                  oil=ac.inner(Oil(B=1.6e9)), flow=blocks.Constant(k=1e-6), pump=FlowSource(),
+    ...                  volume=ControlVolume(V=1e-3, p=start(1e5, fixed=True)))
+    >>> close(run(model)["volume.p"][-1], 1e5 + 1.6e9 * 1e-6 / 1e-3)
+    True
+
     Source: bulk modulus as in Eq. 6; values of an ISO VG 46 oil at 40 degC.
     """
 

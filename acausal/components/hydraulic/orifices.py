@@ -34,8 +34,31 @@ class PartialOrifice(PartialTwoPort, partial=True):
     p_tr: Parameter = Parameter(1e4, unit="Pa", min=0.0, doc="pressure drop of the transition to laminar flow")
 
 
+class LaminarRestriction(PartialTwoPort):
+    """Narrow gap with laminar flow, ``q = G dp``.
+
+    >>> model = assemble("tank.port - gap.port_a", "gap.port_b - drain.port", tank=Tank(p=3e5), drain=Tank(p=1e5),
+    ...                  gap=LaminarRestriction(G=1e-9))
+    >>> run(model)["gap.q"][-1]
+    0.0002
+
+    Source: Merritt, Hydraulic Control Systems (1967), section 3.2, Hagen-Poiseuille.
+    """
+
+    G: Parameter = Parameter(1e-10, unit="m3/(s*Pa)", min=0.0, doc="conductance")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.q == self.G * self.dp
+
+
 class Orifice(PartialOrifice):
     """Orifice of constant area, ``q = Cd area sqrt(2/rho) dp/(dp^2 + p_tr^2)^(1/4)``.
+
+    >>> model = assemble("supply.port - orifice.port_a", "orifice.port_b - tank.port", supply=Tank(p=4.35e6),
+    ...                  tank=Tank(p=1e5), orifice=Orifice(area=1e-5), oil=ac.inner(Oil(rho=850.0)))
+    >>> close(run(model)["orifice.q"][-1], 0.65 * 1e-5 * 100.0)
+    True
 
     Source: Eq. 13, regularised at zero flow.
     """
@@ -51,6 +74,12 @@ class VariableOrifice(PartialOrifice):
     """Orifice whose open area is a signal; `A_leak` is open always.
 
     ``q = Cd (area + A_leak) sqrt(2/rho) dp/(dp^2 + p_tr^2)^(1/4)``.
+
+    >>> model = assemble("supply.port - valve.port_a", "valve.port_b - tank.port", "opening.y - valve.area",
+    ...                  supply=Tank(p=4.35e6), tank=Tank(p=1e5), valve=VariableOrifice(A_leak=0.0),
+    ...                  opening=blocks.Slope(slope=1e-5), oil=ac.inner(Oil(rho=850.0)))
+    >>> close(run(model)["valve.q"], [0.0, 0.65 * 1e-5 * 100.0])
+    True
 
     Source: Eq. 13, regularised at zero flow; modulated resistor of Fig. 8.
     """

@@ -12,6 +12,12 @@ from .interfaces import HydraulicPort, Oil
 class ControlVolume(Component):
     """Constant volume of compressible oil, ``V/B dp/dt = port.q``.
 
+    >>> model = assemble("one.port - gap.port_a", "gap.port_b - two.port", oil=ac.inner(Oil(B=1e9)),
+    ...                  one=ControlVolume(V=2e-3, p=start(3e6, fixed=True)), gap=LaminarRestriction(G=1e-12),
+    ...                  two=ControlVolume(V=2e-3, p=start(1e6, fixed=True)))
+    >>> close(run(model)["one.p"][-1], 2e6 + 1e6 * np.exp(-1.0))
+    True
+
     Source: Eq. 6.
     """
 
@@ -61,6 +67,11 @@ class PartialFriction(Component, partial=True):
 class LaminarFriction(PartialFriction):
     """Laminar flow at any Reynolds number, ``dp = 32 nu rho l w/d^2``.
 
+    >>> model = assemble("flow.y - law.q", flow=blocks.Constant(k=1e-3), law=LaminarFriction(l=10.0, d=0.05),
+    ...                  oil=ac.inner(Oil()))
+    >>> close(run(model)["law.dp"][-1], 128 * 46e-6 * 850 * 10.0 * 1e-3 / (np.pi * 0.05**4))
+    True
+
     Source: Hagen-Poiseuille law; first line of Eq. 12.
     """
 
@@ -74,6 +85,11 @@ class PaperFriction(PartialFriction):
 
     The jump is ill-posed: at constant pressure difference the flow chatters on it. `BlendedFriction` is the law to use.
 
+    >>> model = assemble("flow.y - law.q", flow=blocks.Slope(slope=4e-3), law=PaperFriction(), oil=ac.inner(Oil()))
+    >>> values = run(model, at=[0.6, 0.8])  # at Re = 1750 and 2330
+    >>> values["law.Re"][0] < 2000 < values["law.Re"][1], values["law.dp"][1] > 1.7 * values["law.dp"][0]
+    (True, True)
+
     Source: Eqs. 11 and 12.
     """
 
@@ -86,6 +102,11 @@ class BlendedFriction(PartialFriction):
     """Laminar up to Re = 2000, turbulent from 4000 on, between them ``(1 - s) laminar + s turbulent``.
 
     ``s = k^2 (3 - 2 k)``, ``k = (Re - 2000)/2000``.
+
+    >>> model = assemble("flow.y - law.q - sharp.q", flow=blocks.Constant(k=8e-3), law=BlendedFriction(),
+    ...                  sharp=PaperFriction(), oil=ac.inner(Oil()))
+    >>> run(model)["law.dp"] == run(model)["sharp.dp"]  # turbulent
+    True
 
     Source: Eqs. 11 and 12 with a smooth transition instead of the jump.
     """
@@ -102,6 +123,12 @@ class Pipe(Component):
 
     ``A l/(2 B) dp_a/dt = port_a.q - q``, ``A l/(2 B) dp_b/dt = port_b.q + q``,
     ``rho l/A dq/dt = p_a - p_b - friction.dp``, ``A = pi/4 d^2``.
+
+    >>> model = assemble("supply.port - pipe.port_a", "pipe.port_b - tank.port", oil=ac.inner(Oil()), tank=Tank(p=1e5),
+    ...                  supply=Tank(p=1.1e5), pipe=Pipe(friction=LaminarFriction(), d=0.02, q=start(0.0, fixed=True)))
+    >>> steady, lag = 1e4 * np.pi * 0.02**4 / (128 * 46e-6 * 850 * 10), 0.02**2 / (32 * 46e-6)
+    >>> close(run(model, at=[0.0, 0.1])["pipe.q"][-1], steady * (1 - np.exp(-0.1 / lag)))
+    True
 
     Source: Eqs. 6, 9, 10, 11; lumped C-I-C element of Fig. 8.
     """

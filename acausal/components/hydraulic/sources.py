@@ -10,6 +10,11 @@ from .interfaces import HydraulicPort, PartialTwoPort
 class Tank(Component):
     """Tank of constant pressure, ``port.p = p``; takes and gives any amount of oil.
 
+    >>> model = assemble("tank.port - orifice.port_a", "orifice.port_b - drain.port", oil=ac.inner(Oil()),
+    ...                  tank=Tank(p=2e5), orifice=LaminarRestriction(G=1e-9), drain=Tank(p=1e5))
+    >>> run(model)["orifice.q"][-1]
+    0.0001
+
     Source: effort source of the return line, Fig. 6; Modelica.Fluid.Sources.FixedBoundary.
     """
 
@@ -23,6 +28,11 @@ class Tank(Component):
 
 class PressureSource(Component):
     """Pressure given by a signal, ``port.p = p``.
+
+    >>> model = assemble("wave.y - source.p", "source.port - volume.port", wave=blocks.Slope(offset=1e5, slope=1e6),
+    ...                  source=PressureSource(), volume=ControlVolume(V=1.2e-3), oil=ac.inner(Oil(B=1.2e9)))
+    >>> close(run(model)["volume.port.q"][-1], 1.2e-3 / 1.2e9 * 1e6)
+    True
 
     Source: Modelica.Fluid.Sources.Boundary_pT with p_in.
     """
@@ -38,6 +48,12 @@ class PressureSource(Component):
 class FlowSource(PartialTwoPort):
     """Volume flow rate from a to b given by a signal, ``q = u``.
 
+    >>> model = assemble("flow.y - pump.u", "tank.port - pump.port_a", "pump.port_b - volume.port", oil=ac.inner(Oil()),
+    ...                  flow=blocks.Constant(k=1e-6), tank=Tank(), pump=FlowSource(),
+    ...                  volume=ControlVolume(V=1.2e-3, p=start(1e5, fixed=True)))
+    >>> close(run(model)["volume.p"], [1e5, 1e5 + 1e6])
+    True
+
     Source: modulated flow source of Fig. 6.
     """
 
@@ -51,6 +67,11 @@ class FlowSource(PartialTwoPort):
 class MeteringPump(PartialTwoPort):
     """Pump whose flow from a to b is proportional to a signal, ``q = u V_disp omega``.
 
+    >>> model = assemble("gain.y - pump.u", "tank.port - pump.port_a - pump.port_b", gain=blocks.Constant(k=-0.5),
+    ...                  tank=Tank(), pump=MeteringPump(V_disp=1e-4, omega=25.0))
+    >>> run(model)["pump.q"][-1]
+    -0.00125
+
     Source: Eq. 2.
     """
 
@@ -63,10 +84,34 @@ class MeteringPump(PartialTwoPort):
         yield self.q == self.u * self.V_disp * self.omega
 
 
+class FixedPump(PartialTwoPort):
+    """Pump of constant displacement at constant speed, from a to b, ``q = V_disp omega``; needs a relief valve.
+
+    >>> model = assemble("tank.port - pump.port_a - relief.port_b", "pump.port_b - relief.port_a", oil=ac.inner(Oil()),
+    ...                  tank=Tank(p=1e5), pump=FixedPump(V_disp=1e-4, omega=20.0), relief=ReliefValve(p_set=20e6))
+    >>> 20e6 < run(model)["pump.port_b.p"][-1] < 22e6
+    True
+
+    Source: Merritt, Hydraulic Control Systems (1967), section 4.2, without leakage.
+    """
+
+    V_disp: Parameter = Parameter(2.5e-4, unit="m3", min=0.0, doc="displacement per revolution")
+    omega: Parameter = Parameter(25.0, unit="1/s", doc="speed in revolutions per second")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.q == self.V_disp * self.omega
+
+
 class PressureCompensatedPump(PartialTwoPort):
     """Pump from a (suction) to b (delivery), swung back as the delivery pressure nears its set point.
 
     ``q = V_disp omega clip((p_set - port_b.p)/dp_full, 0, 1)``.
+
+    >>> model = assemble("tank.port - pump.port_a", "pump.port_b - load.port", tank=Tank(), load=Tank(p=24.75e6),
+    ...                  pump=PressureCompensatedPump(V_disp=1e-4, omega=20.0, p_set=25e6, dp_full=1e6))
+    >>> run(model)["pump.q"][-1]  # a quarter of the 2e-3 m3/s
+    0.0005
 
     Source: Eq. 5, with the flow limited to what the pump can deliver.
     """
