@@ -290,3 +290,33 @@ def test_boom_of_planar_parts_is_the_boom_of_the_paper() -> None:
         assert_allclose(parts[name], formulas[name], rtol=1e-6, atol=1e-6 * np.ptp(formulas[name]), err_msg=name)
     push = np.hypot(np.asarray(parts["mechanism.line.frame_a.fx"]), np.asarray(parts["mechanism.line.frame_a.fy"]))
     assert_allclose(push, np.abs(formulas["cylinder.flange.f"]), rtol=1e-6)
+
+
+def test_car_turns_in_a_circle() -> None:
+    """Two wheels that do not slip, the front one steered: the rear one runs on a circle of radius l/tan(angle).
+
+    The constraints are on velocities alone (nonholonomic); coasting, the car keeps its energy.
+    """
+    model = assemble(
+        "car.frame_a - to_rear.frame_a - to_front.frame_a", "to_rear.frame_b - rear.frame_a",
+        "to_front.frame_b - steer.frame_a", "steer.frame_b - front.frame_a",
+        planarWorld=inner(planar.PlanarWorld(g_y=0.0)), to_rear=planar.FixedTranslation(r_x=-1.2),
+        to_front=planar.FixedTranslation(r_x=1.0), steer=planar.FixedRotation(alpha=0.4),
+        car=planar.Body(
+            m=800.0, I=1000.0, r_x=start(0.0, fixed=True), r_y=start(0.0, fixed=True), phi=start(0.3, fixed=True)
+        ),
+        rear=planar.IdealWheelJoint(radius=0.3, w_roll=start(20.0, fixed=True)),
+        front=planar.IdealWheelJoint(radius=0.3),
+    )  # fmt: skip
+    t = np.linspace(0.0, 10.0, 101)
+    solution = simulate(model, t, rtol=1e-9)
+    radius = 2.2 / np.tan(0.4)
+    turned = 6.0 / radius * t
+    assert_allclose(solution["car.phi"], 0.3 + turned, atol=1e-6)
+    assert_allclose(solution["rear.w_roll"], 20.0, rtol=1e-7)
+    assert_allclose(solution["front.v_long"], 6.0 / np.cos(0.4), rtol=1e-7)
+    x = np.asarray(solution["rear.frame_a.x"]) - radius * np.sin(0.3 + turned)
+    assert_allclose(x, x[0], atol=1e-6)
+    force = np.hypot(np.asarray(solution["rear.frame_a.fx"] + solution["front.frame_a.fx"]),
+                     np.asarray(solution["rear.frame_a.fy"] + solution["front.frame_a.fy"]))  # fmt: skip
+    assert_allclose(force, 800.0 * (6.0 / radius) ** 2 * np.hypot(radius, 1.2), rtol=1e-6)

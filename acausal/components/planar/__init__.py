@@ -39,3 +39,5 @@ from .sensors import AbsoluteVelocity as AbsoluteVelocity
 from .sensors import CutForceAndTorque as CutForceAndTorque
 from .sensors import Distance as Distance
 from .sensors import RelativePosition as RelativePosition
+from .wheels import IdealRolling as IdealRolling
+from .wheels import IdealWheelJoint as IdealWheelJoint
