@@ -12,7 +12,7 @@ from ..language.flat_model import Bools, Family, FlatModel
 from ..language.template import Floats, Ints
 from ..passes.specialize import specialize
 from ..symbolic.expr import ONE, Expr, add, neg
-from ..symbolic.traverse import evaluate
+from ..symbolic.traverse import evaluate, leaves
 
 Values = Floats
 
@@ -98,6 +98,12 @@ class Hybrid:
         """Which of these variables move between events."""
         kinds = self.flat.kind
         return np.where(ids < len(kinds), kinds[np.minimum(ids, len(kinds) - 1)] != Kind.DISCRETE, True)
+
+    def follows(self, piece: Piece) -> bool:
+        """Whether expressions depend on discrete quantities only: they change with those and not by themselves."""
+        ids = piece.rows.var_rows
+        timed = any(leaf.op == "time" for leaf in leaves(*piece.forms))
+        return bool(ids.shape[1]) and not timed and not self.moves(ids).any()
 
     def text(self, slot: int) -> str:
         """What a slot is about, with component and source line."""

@@ -101,15 +101,18 @@ class EventIteration:
         self.moves: list[Move] = []
         self.forced: list[int] = []
         self.noise: Floats = np.zeros(hybrid.roots.count)
+        self.follow = [hybrid.follows(piece) for piece in hybrid.relations]
 
     # ---- pieces -----------------------------------------------------------------------------------
     def _conditions(self, point: Point) -> list[Any]:
         return [np.array([v != 0.0 for v in t.values(point)]) for t in self.hybrid.triggers]
 
     def _modes(self, point: Point, p: Floats) -> list[int]:
-        """Put the modes that follow from values into p; the slots that change."""
+        """Put the modes that follow from values that move into p; the slots that change."""
         changed: list[int] = []
-        for piece, strict in zip(self.hybrid.relations, self.hybrid.strict, strict=True):
+        for piece, strict, follows in zip(self.hybrid.relations, self.hybrid.strict, self.follow, strict=True):
+            if follows:
+                continue
             g = piece.values(point)[0]
             new = ((g < 0.0) if strict else (g <= 0.0)).astype(float)
             if self.forced:  # what was found to switch may still be on its old side by rounding
@@ -120,6 +123,15 @@ class EventIteration:
             changed += self._put(p, piece.slots, new)
         for piece in self.hybrid.floors:
             changed += self._put(p, piece.slots, np.floor(piece.values(point)[0]))
+        return changed
+
+    def _following(self, point: Point, p: Floats) -> list[int]:
+        """Put the modes of conditions on discrete quantities into p; the slots that change."""
+        changed: list[int] = []
+        for piece, strict, follows in zip(self.hybrid.relations, self.hybrid.strict, self.follow, strict=True):
+            if follows:
+                g = piece.values(point)[0]
+                changed += self._put(p, piece.slots, ((g < 0.0) if strict else (g <= 0.0)).astype(float))
         return changed
 
     @staticmethod
@@ -230,34 +242,46 @@ class EventIteration:
         one_by_one = False
         changed: list[int] = []
         for _ in range(TURNS):
-            z = self._settled(t, z, p)
-            values = self.equations.values(t, z, p)
+            z, values, restless = self._propagated(t, z, p)
             point = Point(t, values, p)
             old = p[held].copy()
             changed = self._modes(point, p)
+            if not changed and not restless:
+                return z, values
+            if old.tobytes() in tried:
+                if not restless and self._by_rounding(point, changed):
+                    p[held] = old
+                    return z, values
+                if one_by_one:
+                    changed += restless
+                    break
+                one_by_one, tried = True, {}
+            tried[old.tobytes()] = None
             if one_by_one and len(changed) > 1:  # Murty's least-index rule: it does not cycle where a solution exists
                 p[held] = old
                 first = min(changed)
                 p[first] = 1.0 - p[first] if hybrid.flat.slots.kinds[first - hybrid.first] == "relation" else p[first]
-                changed = [first]
-            changed += self._triggers(p, self._conditions(Point(t, values, p)))
-            if not changed:
-                return z, values
-            key = p[held].tobytes()
-            if old.tobytes() not in tried:
-                tried[old.tobytes()] = None
-            if key in tried:
-                if self._by_rounding(point, changed):
-                    p[held] = old
-                    return z, values
-                if one_by_one:
-                    break
-                one_by_one, tried = True, {}
         raise SimulationError(
             f"At t = {t:.12g} s no values of these conditions agree with the equations (each one contradicts itself):\n"
             f"{self._names(changed)}\nThe model has no solution there, or several states of a switch depend on each "
             "other: give the components a smooth or resistive characteristic."
         )
+
+    def _propagated(self, t: float, z: Floats, p: Floats) -> tuple[Floats, Floats, list[int]]:
+        """Solution and values with all that follows from discrete quantities; the slots that do not come to rest.
+
+        A condition on a discrete variable is no choice of its own: it follows from the conditions that determine the
+        variable, so the search for modes that agree is one over the conditions on what moves.
+        """
+        tried: dict[bytes, None] = {}
+        while True:
+            z = self._settled(t, z, p)
+            values = self.equations.values(t, z, p)
+            tried[p[self.hybrid.slots].tobytes()] = None
+            changed = self._following(Point(t, values, p), p)
+            changed += self._triggers(p, self._conditions(Point(t, values, p)))
+            if not changed or p[self.hybrid.slots].tobytes() in tried:
+                return z, values, changed
 
     def _by_rounding(self, point: Point, changed: list[int]) -> bool:
         """Whether all conditions that changed are at their switch but for rounding."""
@@ -433,7 +457,7 @@ class EventIteration:
             z, left = solve(p)
             values = self.equations.values(t0, z, p)
             old = p[hybrid.slots].tobytes()
-            changed = self._modes(Point(t0, values, p), p)
+            changed = self._modes(Point(t0, values, p), p) + self._following(Point(t0, values, p), p)
             changed += self._initial_triggers(Point(t0, values, p), p)
             if not changed or (p[hybrid.slots].tobytes() in tried and self._by_rounding(Point(t0, values, p), changed)):
                 break

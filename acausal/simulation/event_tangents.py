@@ -87,6 +87,15 @@ class EventTangents:
         passing = slopes[np.argmax(np.abs(slopes[:, k]))]
         return -passing[:k] / passing[k] if passing[k] != 0.0 else np.zeros(k)
 
+    def passing(self, t: float, z: Floats, p: Floats) -> Floats:
+        """Time derivatives of the functions of all conditions, (n_roots,)."""
+        low = self.low
+        dp = np.zeros((len(p), 1))
+        dp[self._inputs(), 0] = self.rates(t)
+        rate, x, w = self._rate(t, z, p)[:, None], z[: low.n_x], z[low.n_x :]
+        run = NumericRun(low, t, x, w, p, np.arange(low.n_x), rate, dp, np.ones(1))
+        return run.families(self.hybrid.roots.families)[1][:, 0]
+
     def _rate(self, t: float, z: Floats, p: Floats) -> Floats:
         """Time derivatives of states and algebraic unknowns."""
         low = self.low

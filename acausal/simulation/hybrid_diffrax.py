@@ -21,11 +21,12 @@ from acausal.lowering.initial_numeric import gauss_newton_part, solve_numeric
 from acausal.lowering.numeric import NumericRun, is_concrete
 
 from . import simulate as plain
+from .conditions import sides
 from .engines import all_signals, output_times
 from .event_iteration import EventIteration
 from .failure import explain
 from .hybrid_run import EVENT, run_hybrid, warn
-from .hybrid_static import Stretch, sides, static_integrate
+from .hybrid_static import Stretch, static_integrate
 from .inputs import DrivenLowered, drive
 from .native_library import RESULTS, Floats
 from .rodas5p import Rodas5P
@@ -35,6 +36,10 @@ from .switch import Switch
 SLACK = 1e-12
 TIME = 1e-14
 """Relative and absolute width of the interval in which an event is located."""
+TINY = 1e-200
+"""Slack of what is at its switch exactly: just not zero."""
+NARROWEST = 1e-6
+"""Steps shorter than this part of the rest of the run are not refused."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -123,8 +128,10 @@ def simulate_events(
             return Stretch(np.tile(z, (n, 1)), 0, n, t, z, step, None, {})
         times = np.full(len(save), stop)
         times[: len(remaining)] = np.clip(remaining, t, stop)
-        switch = Switch(jnp.asarray(_slack(iteration, equations, t, z, p)), lowered, hybrid.roots, together, low.n_x)
-        event = diffrax.Event(switch, optx.Bisection(rtol=TIME, atol=TIME)) if hybrid.roots.count else None
+        slack, shortest = jnp.asarray(_slack(iteration, equations, t, z, p)), jnp.asarray(NARROWEST * (stop - t))
+        switch = Switch(slack, shortest, lowered, hybrid.roots, together, low.n_x)
+        finder = optx.Bisection(rtol=TIME, atol=TIME, flip=True)  # what switches by rounding is at an end of the step
+        event = diffrax.Event(switch, finder) if hybrid.roots.count else None
         settings = plain.settings_of(
             method, ("times",), controller=stepsize_controller, has_dt=dt is not None, event=event, max_steps=most
         )
@@ -171,7 +178,7 @@ def simulate_events(
 
 def _slack(iteration: EventIteration, equations: NumericEquations, t: float, z: Floats, p: Floats) -> Floats:
     side = -sides(iteration.hybrid, equations, t, z, p)
-    return np.where(side <= iteration.noise, 10.0 * np.abs(side) + iteration.noise + 1e-300, 0.0)
+    return np.where(side <= iteration.noise, 10.0 * np.abs(side) + iteration.noise + TINY, 0.0)
 
 
 def _switched(hybrid: Hybrid, equations: NumericEquations, t: float, z: Floats, p: Floats) -> Any:

@@ -13,11 +13,12 @@ import numpy as np
 from acausal.errors import SimulationError
 from acausal.lowering.hybrid import Hybrid
 
+from .accumulation import TurnedBack
 from .event_iteration import EventIteration, Outcome
 from .native_library import RESULTS, Floats
 
 CLOSE, SHRINKING, MANY_SHRINKING = 1e-7, 0.999, 20
-"""So many events in a row, each sooner than the last, within this part of the run: they accumulate."""
+"""So many events in a row, each sooner than the last, up to this part of the run: they accumulate."""
 STUCK, MANY_STUCK = 1e-10, 60
 """So many events in a row without time passing, to this part of the run: they chatter."""
 EVENT = RESULTS.index("event_occurred")
@@ -103,9 +104,17 @@ class _Record:
         if len(gaps) >= MANY_STUCK and (gaps < STUCK * self.span).all():
             self._fail(t, "chatters: it switches again as soon as it has switched", gaps)
         pairs = (gaps[1:] + gaps[:-1])[-MANY_SHRINKING:]  # a condition may switch there and back each time
-        close = len(pairs) == MANY_SHRINKING and bool((pairs < CLOSE * self.span).all())
+        close = len(pairs) == MANY_SHRINKING and bool(pairs[-1] < CLOSE * self.span)
         if close and (pairs[2:] < SHRINKING * pairs[:-2]).all():
             self._fail(t, "switches ever faster: its events accumulate at this time", gaps)
+
+    def unresolved(self, slots: list[int]) -> None:
+        """An error, if there are conditions that have come back to their switch too soon to be seen."""
+        if slots:
+            times = [at for at, _ in self.recent]
+            self.recent = deque([(times[0], []), *((at, slots) for at in times[1:])])
+            what = "comes back to its switch faster than can be resolved: its events accumulate at this time"
+            self._fail(times[-1], what, np.abs(np.diff(times)))
 
     def _fail(self, t: float, what: str, gaps: Any) -> None:
         counts: dict[int, int] = {}
@@ -113,10 +122,10 @@ class _Record:
             for slot in dict.fromkeys(slots):
                 counts[slot] = counts.get(slot, 0) + 1
         often = sorted(counts, key=lambda s: -counts[s])
-        named = [s for s in often if 2 * counts[s] >= counts[often[0]]][:4]
+        texts = dict.fromkeys(self.hybrid.text(s) for s in often if 2 * counts[s] >= counts[often[0]])
         raise SimulationError(
-            f"At t = {t:.12g} s a condition {what} ({len(gaps)} events within {gaps.sum():.2g} s):\n"
-            + "\n".join(f"    {self.hybrid.text(s)}" for s in named)
+            f"At t = {t:.12g} s a condition {what} ({len(gaps)} events within the last {gaps.sum():.2g} s):\n"
+            + "\n".join(f"    {text}" for text in list(texts)[:4])
             + "\nTry: a mode of its own for what the model does there (sticking, resting, sliding), a hysteresis, a "
             "smooth characteristic, or noevent(...) around the condition where the solver may step over it."
         )
@@ -145,7 +154,7 @@ def run_hybrid(
     slots = hybrid.flat.slots
     if t1 < t0:
         raise SimulationError("A model with events runs forward in time only: t1 is before t0.")
-    record = _Record(hybrid, t1 - t0)
+    record, turned = _Record(hybrid, t1 - t0), TurnedBack(iteration, t1 - t0)
     t, z, p, step, saved, code = t0, start.z, start.p, first_step, 0, 0
     if start.changed:
         record.event(t0, start.changed)
@@ -158,6 +167,8 @@ def run_hybrid(
         record.segment(segment, p)
         saved += segment.saved
         t, z_end, code = segment.t_end, segment.z_end, segment.code
+        if code in (0, EVENT):
+            record.unresolved(turned.segment(t, z_end, p, segment.switched if code == EVENT else None))
         if code not in (0, EVENT):
             break
         happened = code == EVENT
@@ -168,6 +179,7 @@ def run_hybrid(
         if at_event is not None:
             at_event(t, segment, outcome, samples)
         record.event(t, outcome.changed)
+        turned.event(t, (z_end, p), outcome, segment.switched if happened else None)
         z, p, ended, step, code = outcome.z, outcome.p, outcome.ended, segment.step, 0
         z_end = z
     if slots.terminal >= 0 and ended is None and code == 0:

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import SimulationError
-from acausal.lowering.hybrid import Hybrid, Point
+from acausal.lowering.hybrid import Hybrid
 
+from .conditions import modes, sides
 from .event_iteration import Equations
 from .hybrid_run import EVENT, Integrate
 from .native_library import Floats
@@ -31,22 +32,6 @@ class Stretch:
     step: float = 0.0
     switched: Any = None
     counts: dict[str, int] = field(default_factory=dict[str, int])
-
-
-def sides(hybrid: Hybrid, equations: Equations, t: float, z: Floats, p: Floats) -> Floats:
-    """How far each condition is on the other side than its mode says; (n_roots,)."""
-    p = p.copy()
-    equations.feed(t, p)
-    point = Point(t, equations.values(t, z, p), p)
-    parts = [np.broadcast_to(point.evaluate((f.residual,), f)[0], (f.size,)) for f in hybrid.roots.families]
-    g = np.concatenate([np.zeros(0), *parts])
-    return np.where(modes(hybrid, p), g, -g)
-
-
-def modes(hybrid: Hybrid, p: Floats) -> Any:
-    """Whether each condition is to hold, (n_roots,)."""
-    slots = hybrid.roots.slots
-    return (slots < 0) | (p[np.maximum(slots, 0)] != 0.0)
 
 
 def static_integrate(hybrid: Hybrid, equations: Equations) -> Integrate:

@@ -19,8 +19,41 @@ from .projection import Wrapped
 
 SMALL = 1e-30
 """The root finder asks for a small function as well as for a short interval: the interval alone is to count."""
-INSIDE = (0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875)
-"""Where within a step conditions are looked at."""
+LOOKS = (
+    0.0, 0.1136592107, 0.2329173741, 0.3719042273, 0.5131842019, 0.6527719033, 0.7874513277, 0.9023316619, 1.0
+)  # fmt: skip
+"""Where in a step conditions are looked at: not evenly and at no simple fractions, so as not to fall in step with a
+swing."""
+TRUST = 4.0
+"""The cubic through four values may be wrong by so many times what it is wrong by at the others."""
+_PLACES = np.array(LOOKS)
+_NODES = np.array([0, 2, 6, 8])
+_CUBIC = np.linalg.inv(np.vander(_PLACES[_NODES], 4, increasing=True))
+
+
+def unresolved(sides: Any) -> Any:
+    """Whether the values of each condition at `LOOKS` leave open what happens between them.
+
+    As `acausal/lowering/c/runtime/scan.h`: the cubic through four of them is to tell the others where it matters, and a
+    switch there and back has to be between two values.
+
+    Args:
+        sides: (9, n), negative where a condition has switched.
+    """
+    a = _CUBIC @ sides[_NODES]
+    error = TRUST * jnp.max(jnp.abs(sides - np.vander(_PLACES, 4, increasing=True) @ a), axis=0)
+    square = a[2] ** 2 - 3.0 * a[3] * a[1]
+    root = jnp.sqrt(jnp.maximum(square, 0.0))
+    bottom = jnp.where(a[2] < 0.0, (root - a[2]) / (3.0 * a[3]), -a[1] / (root + a[2]))
+    between = (square > 0.0) & (bottom > 0.0) & (bottom < 1.0)
+    x = jnp.where(between, bottom, 0.0)
+    seen, span = jnp.min(sides, axis=0), jnp.ptp(sides, axis=0)
+    least = jnp.where(between, jnp.minimum(seen, a[0] + x * (a[1] + x * (a[2] + x * a[3]))), seen)
+    vague = jnp.where(seen <= 0.0, error > 0.1 * span, least < error) & (error > 1e-13 * span)
+    hidden = (seen > 0.0) & (least <= 0.0)
+    on = (sides <= 0.0).any(axis=1)
+    there_and_back = (on[:-1] & ~on[1:]).any()
+    return vague.any() | hidden.any() | there_and_back
 
 
 class Switch(eqx.Module):
@@ -28,6 +61,7 @@ class Switch(eqx.Module):
 
     Attributes:
         slack: (n_roots,) what a condition may be on the other side.
+        shortest: steps shorter than this are not refused [s].
         lowered: the equations.
         roots: the conditions.
         together: whether y holds the algebraic unknowns behind the states.
@@ -35,12 +69,17 @@ class Switch(eqx.Module):
     """
 
     slack: Array
+    shortest: Array
     lowered: Any = eqx.field(static=True)
     roots: Roots = eqx.field(static=True)
     together: bool = eqx.field(static=True)
     n_x: int = eqx.field(static=True)
 
     def __call__(self, t: Any, y: Any, args: Any, **_: Any) -> Array:
+        return SMALL * jnp.min(self.sides(t, y, args))
+
+    def sides(self, t: Any, y: Any, args: Any) -> Array:
+        """How far each condition is from its switch, (n_roots,)."""
         p, guess = (args, None) if self.together else args
         w = y[self.n_x :] if self.together else self.lowered.solve_algebraic(t, y[: self.n_x], guess, p)
         own: Any = self.lowered
@@ -50,14 +89,15 @@ class Switch(eqx.Module):
         g = own.residuals_of(self.roots.families, t, y[: self.n_x], w, vector)
         slots = self.roots.slots
         holds = jnp.where(slots < 0, True, vector[np.maximum(slots, 0)] != 0.0)
-        return SMALL * jnp.min(jnp.where(holds, -g, g) + self.slack)
+        return jnp.where(holds, -g, g) + self.slack
 
 
 class Watched(Wrapped):
-    """A diffrax solver whose steps are refused where a condition switches there and back within them.
+    """A diffrax solver whose steps are refused where a condition may switch there and back within them.
 
     Refused steps become shorter, until one ends in between, where diffrax sees it. Solvers without error estimate
     cannot be refused anything.
+
     """
 
     solver: AbstractSolver[Any]  # pyright: ignore[reportIncompatibleVariableOverride]
@@ -74,11 +114,13 @@ class Watched(Wrapped):
         if error is not None:
             between = self.solver.interpolation_cls(t0=t0, t1=t1, **dense)
 
-            def side(s: Any) -> Any:
+            def sides(s: Any) -> Any:
                 t = t0 + s * (t1 - t0)
-                return self.switch(t, between.evaluate(t), args)
+                return self.switch.sides(t, between.evaluate(t), args)
 
-            inside = jnp.min(jax.lax.map(side, jnp.asarray(INSIDE)))
-            over = (inside <= 0.0) & (self.switch(t1, y1, args) > 0.0)
+            inside = jax.lax.map(sides, jnp.asarray(LOOKS[1:-1]))
+            ends = self.switch.sides(t0, y0, args), self.switch.sides(t1, y1, args)
+            over = unresolved(jnp.concatenate([ends[0][None], inside, ends[1][None]]))
+            over &= t1 - t0 > self.switch.shortest
             error = jax.tree.map(lambda e: jnp.where(over, jnp.inf, e), error)
         return y1, error, dense, state, result

@@ -45,9 +45,10 @@ class PartialFriction(Component, partial=True):
         rest, peak = self.tau0 / self.unitTorque, self.tau0_max / self.unitTorque
         was = pre(self.mode)
         was_free, forward, stuck, backward = was == FREE, was == FORWARD, was == STUCK, was == BACKWARD
+        held = pre(self.locked) > 0.5  # what comes to rest is held first: sliding on would agree with the laws, too
         begins, returns = ac.initial() & (w > 0), ac.initial() & (w < 0)
-        starts = stuck & ((sa > peak) | ((pre(self.startForward) > 0.5) & (sa > rest)))
-        reverses = stuck & ((sa < -peak) | ((pre(self.startBackward) > 0.5) & (sa < -rest)))
+        starts = stuck & ((held & (sa > peak)) | ((pre(self.startForward) > 0.5) & (sa > rest)))
+        reverses = stuck & ((held & (sa < -peak)) | ((pre(self.startBackward) > 0.5) & (sa < -rest)))
         yield self.startForward == where(starts | (backward & (w > self.w_small)) | begins, 1.0, 0.0)
         yield self.startBackward == where(reverses | (forward & (w < -self.w_small)) | returns, 1.0, 0.0)
         going, coming, free = self.startForward > 0.5, self.startBackward > 0.5, self.free > 0.5

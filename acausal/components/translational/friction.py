@@ -45,9 +45,10 @@ class PartialFriction(Component, partial=True):
         rest, peak = self.f0 / self.unitForce, self.f0_max / self.unitForce
         was = pre(self.mode)
         was_free, forward, stuck, backward = was == FREE, was == FORWARD, was == STUCK, was == BACKWARD
+        held = pre(self.locked) > 0.5  # what comes to rest is held first: sliding on would agree with the laws, too
         begins, returns = ac.initial() & (v > 0), ac.initial() & (v < 0)
-        starts = stuck & self.ahead((sa > peak) | ((pre(self.startForward) > 0.5) & (sa > rest)))
-        reverses = stuck & self.behind((sa < -peak) | ((pre(self.startBackward) > 0.5) & (sa < -rest)))
+        starts = stuck & self.ahead((held & (sa > peak)) | ((pre(self.startForward) > 0.5) & (sa > rest)))
+        reverses = stuck & self.behind((held & (sa < -peak)) | ((pre(self.startBackward) > 0.5) & (sa < -rest)))
         yield self.startForward == where(starts | (backward & (v > self.v_small)) | begins, 1.0, 0.0)
         yield self.startBackward == where(reverses | (forward & (v < -self.v_small)) | returns, 1.0, 0.0)
         going, coming, free = self.startForward > 0.5, self.startBackward > 0.5, self.free > 0.5

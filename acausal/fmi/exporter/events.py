@@ -54,7 +54,7 @@ def event_tables(system: System) -> list[str]:
     numbers: dict[str, list[int]] = {
         name: [] for name in (
             "floor_slot", "pre_slot", "pre_source", "pre_sign", "condition_slot", "reinit_state", "reinit_sign",
-            "sample_slot", "assert_fatal", "root_first", "root_variable", "root_moves",
+            "sample_slot", "assert_fatal", "root_first", "root_variable", "root_moves", "root_follows",
         )
     }  # fmt: skip
     texts: dict[str, list[str]] = {"slot_text": [], "assert_text": [], "end_text": []}
@@ -74,6 +74,8 @@ def event_tables(system: System) -> list[str]:
         texts["end_text"] = [message for p, message in hybrid.ends for _ in range(p.rows.size)]
         texts["slot_text"] = [hybrid.flat.slot_text(hybrid.first + k) for k in range(slots.count)]
         numbers["root_first"], numbers["root_variable"], nominal = _scales(system, hybrid)
+        follows = {s: int(hybrid.follows(piece)) for piece in hybrid.relations for s in piece.slots.tolist()}
+        numbers["root_follows"] = [follows.get(s, 0) for s in hybrid.roots.slots.tolist()]
         numbers["root_moves"] = hybrid.moves(np.array(numbers["root_variable"], np.int64)).astype(int).tolist()
     counts = {
         "FLOORS": "floor_slot", "PRES": "pre_slot", "CONDITIONS": "condition_slot", "REINITS": "reinit_state",

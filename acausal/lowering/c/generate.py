@@ -26,7 +26,9 @@ if TYPE_CHECKING:
     from ..initial import InitialProblem
     from ..parameters import ParameterProgram
 
-RUNTIME = ("acausal.h", "solver.h", "events.h", "explicit.h", "projection.h", "families.h", "initialize.h", "start.h")
+RUNTIME = (
+    "acausal.h", "solver.h", "events.h", "scan.h", "explicit.h", "projection.h", "families.h", "initialize.h", "start.h"
+)  # fmt: skip
 TANGENTS = "AC_TANGENTS"
 
 

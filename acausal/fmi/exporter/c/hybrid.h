@@ -78,11 +78,20 @@ static int fmu_settle(fmu_instance *f) {
 }
 
 /* ---- one turn ------------------------------------------------------------------------------------ */
+/* Modes that follow from values that move. */
 static int fmu_modes(fmu_instance *f) {
     int changed = 0;
     for (int k = 0; k < AC_NR; k++)
-        if (ac_root_slot[k] >= 0) fmu_put(f, ac_root_slot[k], fmu_holds(f, k), &changed);
+        if (ac_root_slot[k] >= 0 && !fmu_root_follows[k]) fmu_put(f, ac_root_slot[k], fmu_holds(f, k), &changed);
     for (int k = 0; k < FMU_FLOORS; k++) fmu_put(f, fmu_floor_slot[k], floor(f->events[k]), &changed);
+    return changed;
+}
+
+/* Modes of conditions on discrete quantities. */
+static int fmu_following(fmu_instance *f) {
+    int changed = 0;
+    for (int k = 0; k < AC_NR; k++)
+        if (ac_root_slot[k] >= 0 && fmu_root_follows[k]) fmu_put(f, ac_root_slot[k], fmu_holds(f, k), &changed);
     return changed;
 }
 
@@ -167,31 +176,36 @@ static void fmu_say_slots(fmu_instance *f, const char *what) {
         if (f->slot_changed[k]) n++, fmu_say(f, FMU_DISCARD, "    %s", fmu_slot_text[k]);
 }
 
-/* Modes and triggers that agree with the solution of the equations. */
-static int fmu_consistent(fmu_instance *f) {
-    double old[FMU_SLOTS + 1];
-    int one_by_one = 0, tried = 0;
+/* Solution and values with all that follows from discrete quantities: a condition on a discrete variable is no choice of
+   its own. *restless: number of slots that do not come to rest. */
+static int fmu_propagate(fmu_instance *f, int *restless) {
     for (int turn = 0; turn < FMU_TURNS; turn++) {
         const int status = fmu_settle(f);
         if (status != FMU_OK) return status;
         fmu_event_values(f);
+        fmu_no_changes(f);
+        *restless = fmu_following(f);
+        if (*restless) fmu_event_values(f);
+        *restless += fmu_triggers(f);
+        if (!*restless) return FMU_OK;
+    }
+    return FMU_OK;
+}
+
+/* Modes and triggers that agree with the solution of the equations. */
+static int fmu_consistent(fmu_instance *f) {
+    double old[FMU_SLOTS + 1];
+    int one_by_one = 0, tried = 0, restless = 0;
+    for (int turn = 0; turn < FMU_TURNS; turn++) {
+        const int status = fmu_propagate(f, &restless);
+        if (status != FMU_OK) return status;
+        if (restless) break;
         const unsigned long long hash = fmu_slot_hash(f);
         memcpy(old, f->s.p + FMU_FIRST_SLOT, sizeof(double) * FMU_SLOTS);
         fmu_no_changes(f);
-        int changed = fmu_modes(f);
-        if (one_by_one && changed > 1) { /* Murty's least-index rule: it does not cycle where a solution exists */
-            int first = 0, again = 0;
-            while (!f->slot_changed[first]) first++;
-            const double value = f->s.p[FMU_FIRST_SLOT + first];
-            memcpy(f->s.p + FMU_FIRST_SLOT, old, sizeof(double) * FMU_SLOTS);
-            fmu_no_changes(f);
-            fmu_put(f, FMU_FIRST_SLOT + first, value, &again);
-            changed = again;
-        }
-        changed += fmu_triggers(f);
+        const int changed = fmu_modes(f);
         if (!changed) return FMU_OK;
-        if (!fmu_tried(f, tried, hash)) f->tried[tried++] = hash;
-        if (fmu_tried(f, tried, fmu_slot_hash(f))) {
+        if (fmu_tried(f, tried, hash)) {
             if (fmu_by_rounding(f)) {
                 memcpy(f->s.p + FMU_FIRST_SLOT, old, sizeof(double) * FMU_SLOTS);
                 f->constants_known = 0;
@@ -200,6 +214,15 @@ static int fmu_consistent(fmu_instance *f) {
             }
             if (one_by_one) break;
             one_by_one = 1, tried = 0;
+        }
+        f->tried[tried++] = hash;
+        if (one_by_one && changed > 1) { /* Murty's least-index rule: it does not cycle where a solution exists */
+            int first = 0, again = 0;
+            while (!f->slot_changed[first]) first++;
+            const double value = f->s.p[FMU_FIRST_SLOT + first];
+            memcpy(f->s.p + FMU_FIRST_SLOT, old, sizeof(double) * FMU_SLOTS);
+            f->constants_known = 0;
+            fmu_put(f, FMU_FIRST_SLOT + first, value, &again);
         }
     }
     fmu_say_slots(f, "no values of these conditions agree with the equations:");
@@ -387,7 +410,7 @@ static int fmu_hybrid_start(fmu_instance *f, const ac_given *given) {
         fmu_event_values(f);
         const unsigned long long hash = fmu_slot_hash(f);
         fmu_no_changes(f);
-        changed = fmu_modes(f) + fmu_initial_triggers(f);
+        changed = fmu_modes(f) + fmu_following(f) + fmu_initial_triggers(f);
         if (!changed || (fmu_tried(f, tried, fmu_slot_hash(f)) && fmu_by_rounding(f))) break;
         f->tried[tried++] = hash;
         if (turn == FMU_TURNS - 1) {

@@ -1,8 +1,8 @@
 /* Events: a step at whose end a condition is not as its mode says is shortened until it ends just behind the switch.
 
    A condition k holds where g_k < 0 (or <= 0); its mode is a parameter that is held during a run. The earliest switch is
-   found on the dense output, where the functions are looked at inside of the step as well; then steps are taken up to it,
-   with Newton's method for its time, so that the result does not depend on the interpolation.
+   found on the dense output (scan.h); then steps are taken up to it, with Newton's method for its time, so that the result
+   does not depend on the interpolation.
    Shampine and Thompson (2000), Event location for ordinary differential equations, Comput. Math. Appl. 39. */
 
 #define AC_NEWTON 20
@@ -60,6 +60,7 @@ static void ac_arm(const ac_problem *q, ac_work *w, double t) {
     ac_inputs(w, t);
     ac_roots(&w->m, t, w->z, w->g0);
     memset(w->slack, 0, sizeof w->slack);
+    w->noise = q->noise;
     for (int k = 0; k < AC_NR; k++)
         if (ac_switched(w, w->g0, k) || fabs(w->g0[k]) < q->noise[k]) w->slack[k] = 10.0 * fabs(w->g0[k]) + q->noise[k];
 }
@@ -78,59 +79,7 @@ static void ac_at(ac_work *w, double t, double h, ac_curve curve, const void *da
     ac_roots(&w->m, t + s * h, w->y, g);
 }
 
-/* Where in the step (0, 1] something has switched, on the dense output: just behind the first switch found; 2 if none.
-   Looked at are the end, the middle, and where a parabola through three values has its extremum. */
-static double ac_first_switch(ac_work *w, double t, double h, ac_curve curve, const void *data) {
-    double from = 0.0, to = 2.0;
-    ac_at(w, t, h, curve, data, 0.5, w->g1);
-    ac_inputs(w, t + h);
-    ac_roots(&w->m, t + h, w->z1, w->g2);
-    const int middle = ac_any(w, w->g1), end = ac_any(w, w->g2);
-    if (middle) to = 0.5;
-    else if (end) from = 0.5, to = 1.0;
-    double nearest = 2.0;
-    for (int k = 0; k < AC_NR; k++) { /* there and back within the step */
-        int at_zero;
-        const double a = ac_beyond(w, w->g0, k, &at_zero), b = ac_beyond(w, w->g1, k, &at_zero);
-        const double c = ac_beyond(w, w->g2, k, &at_zero), bend = 2.0 * (a - 2.0 * b + c), rise = 4.0 * b - 3.0 * a - c;
-        if (!(bend < 0.0)) continue;
-        const double top = -0.5 * rise / bend, height = a + top * (rise + top * bend);
-        const double most = ac_max(a, ac_max(b, c));
-        if (!(top > 0.0 && top < 1.0 && height > most)) continue;
-        if (!(height + 0.5 * (height - most) + 0.1 * fabs(most) > 0.0)) continue;
-        if (top < nearest && top < to) nearest = top;
-    }
-    if (nearest < to) {
-        ac_at(w, t, h, curve, data, nearest, w->g3);
-        if (ac_any(w, w->g3)) from = nearest > 0.5 ? ac_min(from, nearest) : 0.0, to = nearest;
-    }
-    if (to > 1.0) return 2.0;
-    for (int turn = 0; turn < 200 && (to - from) * fabs(h) > 4e-16 * fabs(t) + 1e-18 * fabs(h); turn++) {
-        double s = 0.5 * (from + to);
-        if (turn % 3) { /* the secant of what switches first */
-            double first = 2.0;
-            ac_at(w, t, h, curve, data, from, w->g1);
-            ac_at(w, t, h, curve, data, to, w->g3);
-            for (int k = 0; k < AC_NR; k++) {
-                int at_zero;
-                if (!ac_switched(w, w->g3, k)) continue;
-                const double a = ac_beyond(w, w->g1, k, &at_zero) - w->slack[k];
-                const double b = ac_beyond(w, w->g3, k, &at_zero) - w->slack[k];
-                const double at = a < 0.0 ? from - a * (to - from) / (b - a) : from;
-                first = ac_min(first, at);
-            }
-            const double width = to - from; /* once behind it, once before it */
-            s = first + (turn % 3 == 1 ? 1e-3 : -1e-3) * width;
-            if (width < 1e-9) s = turn % 3 == 1 ? first + 1e-14 : first;
-            if (!(s > from && s < to)) s = 0.5 * (from + to);
-        }
-        if (s <= from || s >= to) break;
-        ac_at(w, t, h, curve, data, s, w->g1);
-        if (ac_any(w, w->g1)) to = s;
-        else from = s;
-    }
-    return to;
-}
+#include "scan.h"
 
 /* The step of size h again, from the same start; 1 if it cannot be made. */
 static int ac_again(ac_work *w, double t, double h) {

@@ -70,7 +70,8 @@ typedef struct {
     double dense[AC_N * AC_N];
 #endif
 #if AC_NR > 0
-    double g0[AC_NR], g1[AC_NR], g2[AC_NR], g3[AC_NR], slack[AC_NR], rate[AC_NR];
+    double g0[AC_NR], g1[AC_NR], g2[AC_NR], g3[AC_NR], slack[AC_NR], rate[AC_NR], scan[5][AC_NR];
+    const double *noise;
     char candidate[AC_NR];
 #endif
 #if AC_NG > 0

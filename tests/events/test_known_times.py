@@ -1,0 +1,99 @@
+"""Times of events against closed forms: no event is missed, none is where it should not be, on either engine."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+
+from .benchmarks import KNOWN
+
+SEEDS = 1000
+FEW = 40
+PRECISE = 1e-8
+"""Of event times, relative to the length of the run."""
+
+
+@cache
+def compiled(name: str) -> ac.System:
+    return ac.compile(KNOWN[name].model())
+
+
+def check(name: str, seed: int, engine: Any) -> None:
+    known = KNOWN[name]
+    parameters, start, t1 = known.draw(np.random.default_rng(seed))
+    wanted = known.times(parameters, start, t1)
+    given: dict[str, Any] = {"parameters": parameters, "initial": start, "engine": engine}
+    solution = compiled(name).simulate(t1, rtol=1e-10, saveat=2, **given)
+    found = np.array([event.t for event in solution.events])
+    late = np.abs(found[None] - wanted[:, None]).min(axis=1, initial=np.inf)
+    assert late.max(initial=0.0) <= PRECISE * t1, f"seed {seed}: {wanted} and not {found}"
+    if name == "ball":
+        assert solution["bounces"][-1] == len(wanted), f"seed {seed}: bounces"
+    elif name == "full_wave":
+        early = np.abs(found[:, None] - wanted[None]).min(axis=1, initial=np.inf)
+        assert early.max(initial=0.0) <= PRECISE * t1, f"seed {seed}: {found} and not {wanted}"
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_no_event_is_missed(name: str) -> None:
+    for seed in range(FEW):
+        check(name, seed, "native")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", KNOWN)
+def test_no_event_is_missed_in_many_runs(name: str) -> None:
+    for seed in range(FEW, SEEDS):
+        check(name, seed, "native")
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_the_diffrax_engine_finds_the_same_times(name: str) -> None:
+    for seed in range(3):
+        check(name, seed, "diffrax")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", KNOWN)
+def test_the_diffrax_engine_misses_no_event(name: str) -> None:
+    for seed in range(3, 100):
+        check(name, seed, "diffrax")
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_the_trajectory_is_exact_too(engine: Any) -> None:
+    """Height of the ball between its bounces: parabolas."""
+    known, t = KNOWN["ball"], np.linspace(0.0, 2.4, 97)
+    solution = compiled("ball").simulate(2.4, saveat=t, engine=engine, rtol=1e-9)
+    times = known.times({"g": 9.81, "e": 0.7}, {"h": 1.0, "v": 0.0}, 2.4)
+    speeds = np.concatenate([[0.0], np.sqrt(2 * 9.81) * 0.7 ** np.arange(1, len(times) + 1)])
+    since = np.concatenate([[0.0], times])
+    flight = np.searchsorted(times, t, side="right")
+    flown = t - since[flight]
+    height = np.where(flight == 0, 1.0, 0.0) + speeds[flight] * flown - 9.81 / 2 * flown**2
+    np.testing.assert_allclose(solution["h"], height, atol=1e-9)
+    np.testing.assert_allclose(solution["last"][flight > 0], since[flight][flight > 0], rtol=1e-10)
+
+
+def test_times_within_a_swing_that_the_states_do_not_feel() -> None:
+    """A condition on time alone, on no states that would limit the steps: 2000 crossings in one run."""
+
+    class Counting(ac.Component):
+        x: ac.Variable = ac.Variable(start=0.0, fixed=True)
+        n: ac.Discrete = ac.Discrete(start=0)
+        m: ac.Discrete = ac.Discrete(start=0)
+
+        def equations(self) -> ac.Equations:
+            yield ac.der(self.x) == 1.0
+            yield ac.when(ac.sin(ac.time) > 0.999, {self.n: ac.pre(self.n) + 1})
+            yield ac.when(ac.sin(ac.time) < -0.5, {self.m: ac.pre(self.m) + 1})
+
+    turns = 1000
+    for engine, t1 in (("native", 2 * np.pi * turns), ("diffrax", 2 * np.pi * 20)):
+        solution = ac.compile(Counting()).simulate(t1, engine=engine, saveat=2)
+        assert solution["n"][-1] == solution["m"][-1] == round(t1 / (2 * np.pi))
