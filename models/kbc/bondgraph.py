@@ -36,7 +36,7 @@ class Boom(planar.PartialBoom):
 
     torque: bg.RotationalBond = bg.RotationalBond(inward=True)
     weight: bg.MSe = bg.MSe()
-    inertia: bg.I = bg.I(I=planar.PartialBoom.I, p=start(nominal=1e5))
+    inertia: bg.I = bg.I(I=planar.PartialBoom.I, f=start(nominal=0.1))
     rotation: bg.J1 = bg.J1(n_in=2, n_out=1)
 
     def equations(self) -> Equations:
@@ -81,7 +81,7 @@ class CompliantJoint(PartialJoint):
     F_start: Parameter = Parameter(0.0, unit="N", doc="force of the spring at the start")
     force: bg.J0 = bg.J0(n_in=2, n_out=1)
     gap: bg.J1 = bg.J1()
-    spring: bg.C = bg.C(C=1.0 / k, q=start(nominal=1e-3))
+    spring: bg.C = bg.C(C=1.0 / k, e=start(nominal=1e5))
     damper: bg.R = bg.R(R=c)
 
     def equations(self) -> Equations:

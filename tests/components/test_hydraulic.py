@@ -150,3 +150,21 @@ def test_water_hammer() -> None:
     assert_allclose(rise[low].mean(), -wanted, rtol=0.02)
     quiet = t < 0.4 * back
     assert np.abs(np.asarray(solution["pieces[0].q"])[quiet] - 2e-3).max() < 1e-4
+
+
+def test_shuttle_and_reducing_valve_hand_over() -> None:
+    """The higher of two pressures that cross goes on, but no higher than the reducing valve lets it."""
+    model = assemble(
+        "rise.y - one.p", "one.port - shuttle.port_a", "two.port - shuttle.port_b",
+        "shuttle.port_c - reducer.port_a - line.port", "reducer.port_b - load.port_a - reduced.port",
+        "load.port_b - tank.port", oil=inner(OIL), one=hydraulic.PressureSource(),
+        rise=blocks.Slope(offset=1e6, slope=8e6), two=hydraulic.Tank(p=3e6), shuttle=hydraulic.ShuttleValve(),
+        reducer=hydraulic.PressureReducingValve(p_set=5e6, dp_open=1e5), tank=hydraulic.Tank(p=0.0),
+        load=hydraulic.LaminarRestriction(G=1e-11), line=hydraulic.ControlVolume(V=1e-4, p=start(3e6, fixed=True)),
+        reduced=hydraulic.ControlVolume(V=1e-5, p=start(3e6, fixed=True)),
+    )  # fmt: skip
+    t = np.linspace(0.0, 1.0, 21)
+    solution = simulate(model, t)
+    higher = np.maximum(1e6 + 8e6 * t, 3e6)
+    assert_allclose(solution["shuttle.port_c.p"], higher, rtol=5e-3)
+    assert_allclose(solution["reducer.port_b.p"], np.minimum(higher, 5.1e6), rtol=5e-3)

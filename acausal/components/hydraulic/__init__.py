@@ -1,4 +1,4 @@
-"""Oil hydraulics: ports, oil, volumes, orifices, valves, pumps, pipes and cylinders.
+"""Oil hydraulics: ports, oil, volumes, orifices, valves, pumps and motors, accumulators, pipes, cylinders and sensors.
 
 Pressures are absolute [Pa]; flows are volume flow rates [m3/s], positive into the component. The oil is
 incompressible in resistances and of constant bulk modulus in volumes. Every component reads the oil from the nearest
@@ -46,5 +46,7 @@ from .valves import LoadControlValve as LoadControlValve
 from .valves import PartialPressureValve as PartialPressureValve
 from .valves import PilotOperatedCheckValve as PilotOperatedCheckValve
 from .valves import PressureCompensator as PressureCompensator
+from .valves import PressureReducingValve as PressureReducingValve
 from .valves import ReliefValve as ReliefValve
+from .valves import ShuttleValve as ShuttleValve
 from .valves import TwoWayValve as TwoWayValve

@@ -214,3 +214,56 @@ class PilotOperatedCheckValve(PartialPressureValve):
         yield from super().equations()
         yield self.port_x.q == 0
         yield from self.opened(self.dp + self.ratio * (self.port_x.p - self.port_a.p) - self.p_crack)
+
+
+class PressureReducingValve(PartialPressureValve):
+    """Reducing valve from a to b: closes as the pressure behind it rises from `p_set` to ``p_set + dp_open``.
+
+    >>> model = assemble("supply.port - valve.port_a", "valve.port_b - load.port_a", "load.port_b - tank.port",
+    ...                  supply=Tank(p=2e7), tank=Tank(p=0.0), load=LaminarRestriction(G=1e-10), oil=ac.inner(Oil()),
+    ...                  valve=PressureReducingValve(p_set=5e6, dp_open=1e5))
+    >>> 5e6 < run(model)["valve.port_b.p"][-1] < 5.1e6
+    True
+
+    Source: Merritt, Hydraulic Control Systems (1967), section 9.3, in the steady state.
+    """
+
+    p_set: Parameter = Parameter(5e6, unit="Pa", doc="pressure at b above which it begins to close")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield from self.opened(self.p_set + self.dp_open - self.port_b.p)
+
+
+class ShuttleValve(Component):
+    """Shuttle valve: joins `port_c` to the one of a and b with the higher pressure, as for load sensing.
+
+    ``opening_a = clip(1/2 + (port_a.p - port_b.p)/dp_open, 0, 1)``, that of b is the rest to 1.
+
+    >>> model = assemble("one.port - shuttle.port_a", "two.port - shuttle.port_b", "shuttle.port_c - meter.port",
+    ...                  one=Tank(p=5e6), two=Tank(p=8e6), shuttle=ShuttleValve(), meter=PressureSensor(),
+    ...                  oil=ac.inner(Oil()))
+    >>> close(run(model)["meter.p"][-1], 8e6)
+    True
+
+    Source: two seats and one ball, each seat by Eq. 13.
+    """
+
+    port_a: HydraulicPort = HydraulicPort()
+    port_b: HydraulicPort = HydraulicPort()
+    port_c: HydraulicPort = HydraulicPort()
+    A_full: Parameter = Parameter(2e-5, unit="m2", min=0.0, doc="area of each seat when open")
+    A_leak: Parameter = Parameter(1e-12, unit="m2", min=0.0, doc="leakage area of each seat")
+    dp_open: Parameter = Parameter(1e4, unit="Pa", min=1e-30, doc="pressure difference that moves the ball across")
+    seat_a: VariableOrifice = VariableOrifice(A_leak=A_leak)
+    seat_b: VariableOrifice = VariableOrifice(A_leak=A_leak)
+    opening_a: Variable = Variable(unit="1", doc="part of seat a that is open")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield connect(self.port_a, self.seat_a.port_a)
+        yield connect(self.port_b, self.seat_b.port_a)
+        yield connect(self.port_c, self.seat_a.port_b, self.seat_b.port_b)
+        yield self.opening_a == clip(0.5 + (self.port_a.p - self.port_b.p) / self.dp_open, 0.0, 1.0)
+        yield self.seat_a.area == self.A_full * self.opening_a
+        yield self.seat_b.area == self.A_full * (1 - self.opening_a)
