@@ -20,7 +20,7 @@ from ..errors import StructureError
 from ..language.flat_model import Family, FlatModel, canonical
 from ..language.template import Floats, Ints
 from ..symbolic.differentiate import partial
-from ..symbolic.expr import ONE, ZERO, Expr, add, div, mul, neg, par, var
+from ..symbolic.expr import ONE, ZERO, Expr, add, const, div, mul, neg, par, var
 from ..symbolic.gradient import Sampler
 from ..symbolic.traverse import leaves, postorder, substitute
 from .places import context
@@ -143,7 +143,21 @@ class _Entry:
         value = self.value - product
         if np.all(np.abs(value) <= ZERO_BELOW * (np.abs(self.value) + np.abs(product))):
             return _Entry(ZERO, 0.0 * value)
-        return _Entry(add(self.expression, neg(mul(factor.expression, other.expression))), value)
+        return _Entry(add(self.expression, neg(mul(factor.expression, other.expression))), value).simplest()
+
+    def over(self, pivot: _Entry) -> _Entry:
+        """``self / pivot``."""
+        return _Entry(div(self.expression, pivot.expression), self.value / pivot.value).simplest()
+
+    def simplest(self) -> _Entry:
+        """A number where the expression has the same simple value at all points."""
+        first = float(self.value.flat[0])
+        simple = round(12 * first) / 12
+        if self.expression.op == "const" or self.value.size < 2 or abs(simple - first) > ZERO_BELOW * abs(simple):
+            return self
+        if np.all(np.abs(self.value - simple) <= ZERO_BELOW * abs(simple)):
+            return _Entry(const(simple), self.value)
+        return self
 
     @property
     def nonzero(self) -> bool:
@@ -320,7 +334,7 @@ class _Group:
                 if u not in rows[k]:
                     continue
                 a = rows[k].pop(u)
-                factor = _Entry(div(a.expression, pivot.expression), a.value / pivot.value)
+                factor = a.over(pivot)
                 _subtract(rows[k], factor, {v: e for v, e in rows[p].items() if v != u})
                 _subtract(factors[k], factor, factors[p])
         if rows[last]:

@@ -13,9 +13,13 @@ from .operators import OPERATORS
 from .traverse import apply, postorder_missing
 
 
+LARGEST_EXPONENT = 5.0
+
+
 class Sampler:
-    """Values of expressions in general position: which branch a ``where`` takes is chosen from outside, and opaque
-    functions have arbitrary values (their derivatives too).
+    """Values of expressions in general position: which branch a ``where`` takes is chosen from outside, opaque
+    functions have arbitrary values (their derivatives too), and exponentials are kept to sizes that rank decisions in
+    floating-point numbers can bear.
 
     Args:
         leaf: value of a leaf other than a constant: a number, or an array with one element per point.
@@ -47,6 +51,8 @@ class Sampler:
         if not node.args:
             return self.leaf(node)
         args = [self.memo[id(a)] for a in node.args]
+        if node.op in ("exp", "sinh", "cosh"):
+            args = [_moderate(args[0])]
         if node.op == "where":
             return args[1] if self._choose(node) else args[2]
         if node.op == "div":
@@ -86,3 +92,8 @@ class Sampler:
             return list(enumerate(self.values(rules)))
         pairs = [(i, rule(*node.args)) for i, rule in enumerate(OPERATORS[node.op].partials) if rule is not None]
         return list(zip((i for i, _ in pairs), self.values([e for _, e in pairs]), strict=True))
+
+
+def _moderate(exponent: Any) -> Any:
+    """The exponent if it is small, else some number that is; equal ones stay equal, and opposite ones opposite."""
+    return np.where(np.abs(exponent) <= LARGEST_EXPONENT, exponent, LARGEST_EXPONENT * np.sin(exponent))
