@@ -77,8 +77,8 @@ class LinearBlock(Component):
         yield 0.5 * self.a + self.b + 0.1 * self.c + self.d + 7 * self.e == x**2
 
 
-class Pendulum(Component):
-    """A Cartesian pendulum: index 3, with retained constraints."""
+class Swinging(Component, partial=True):
+    """A mass at constant distance from a pivot; subclasses say what forces it."""
 
     L: Parameter = Parameter(1.2)
     g: Parameter = Parameter(9.81)
@@ -91,9 +91,40 @@ class Pendulum(Component):
     def equations(self) -> Equations:
         yield der(self.x) == self.vx
         yield der(self.y) == self.vy
+        yield self.x**2 + self.y**2 == self.L**2
+
+
+class Pendulum(Swinging):
+    """A Cartesian pendulum: index 3, with retained constraints."""
+
+    def equations(self) -> Equations:
+        yield from super().equations()
         yield der(self.vx) == -self.tension * self.x
         yield der(self.vy) == -self.tension * self.y - self.g
-        yield self.x**2 + self.y**2 == self.L**2
+
+
+class Damped(Swinging):
+    """The same in air: the drag is an algebraic unknown, which the constraint on the accelerations depends on."""
+
+    c: Parameter = Parameter(0.4)
+    drag: Variable = Variable(start=0.1)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.drag + 0.2 * self.drag**3 == self.c * (self.vx**2 + self.vy**2)
+        yield der(self.vx) == -self.tension * self.x - self.drag * self.vx
+        yield der(self.vy) == -self.tension * self.y - self.drag * self.vy - self.g
+
+
+class Carried(Swinging):
+    """The pivot accelerates sideways as the input says."""
+
+    u: Input = Input(start=0.0)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield der(self.vx) == -self.tension * self.x - self.u
+        yield der(self.vy) == -self.tension * self.y - self.g
 
 
 class Driven(Component):

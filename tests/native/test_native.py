@@ -14,16 +14,17 @@ from acausal import SimulationError
 from acausal.simulation import engines, native
 from acausal.simulation.native import native_model
 
-from .models import Balanced, Branches, Decay, Driven, Free, LinearBlock, Pendulum, Torn
+from .models import Balanced, Branches, Carried, Damped, Decay, Driven, Free, LinearBlock, Pendulum, Torn
 
 TIGHT = 1e-11
-MODELS = [Decay, Balanced, Torn, LinearBlock, Pendulum, Branches]
-LOOPED = [Decay, Balanced, Torn, LinearBlock, Branches, Driven]
+MODELS = [Decay, Balanced, Torn, LinearBlock, Pendulum, Damped, Branches]
+LOOPED = [Decay, Balanced, Torn, LinearBlock, Branches, Pendulum, Damped, Driven, Carried]
+FED = (Driven, Carried)
 
 
 @pytest.fixture(scope="module")
 def systems() -> dict[type, ac.System]:
-    return {model: ac.compile(model()) for model in [*MODELS, Driven, Free]}
+    return {model: ac.compile(model()) for model in [*MODELS, *FED, Free]}
 
 
 @pytest.fixture(scope="module")
@@ -48,14 +49,14 @@ def test_both_engines_agree(systems: dict[type, ac.System], model: Any) -> None:
 
 @pytest.mark.parametrize("model", LOOPED)
 def test_loops_give_the_same(systems: dict[type, ac.System], looped: dict[type, ac.System], model: Any) -> None:
-    inputs = {"u": (np.array([0.0, 0.4, 2.0]), np.array([0.0, 1.0, -0.5]))} if model is Driven else None
+    inputs = {"u": (np.array([0.0, 0.4, 2.0]), np.array([0.0, 1.0, -0.5]))} if model in FED else None
     until = 0.08 if model is Branches else 1.0  # rounding decides about the steps across a jump
     a, b = (s[model].simulate(until, inputs=inputs, rtol=1e-9, saveat=21, engine="native") for s in (systems, looped))
     for name in a.names:
         np.testing.assert_allclose(a[name], b[name], rtol=1e-8, atol=1e-10, err_msg=name)
 
 
-@pytest.mark.parametrize("model", LOOPED[:-1])
+@pytest.mark.parametrize("model", [m for m in LOOPED if m not in FED])
 def test_gradients_of_loops(systems: dict[type, ac.System], looped: dict[type, ac.System], model: Any) -> None:
     names = list(systems[model].parameters)
 

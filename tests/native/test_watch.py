@@ -34,6 +34,7 @@ def test_interrupt_ends_the_run(system: ac.System) -> None:
 
 
 def test_interrupt_ends_an_ensemble(system: ac.System) -> None:
+    system.ensemble({"k": [0.5, 0.6]}, 1e-6, **ENDLESS)  # imports may swallow an interrupt
     threading.Timer(0.5, _thread.interrupt_main).start()
     begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):

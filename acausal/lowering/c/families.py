@@ -130,11 +130,15 @@ class Families:
         self.pattern.sort_indices()
         self.color = np.asarray(color_columns(self.pattern), np.int64)
 
+    def _inputs_among(self, par_rows: Ints) -> frozenset[int]:
+        """Parameter slots that are inputs in some row."""
+        inside = (par_rows >= self.n_par) & (par_rows < self.n_par + self.n_inputs)
+        return frozenset(np.flatnonzero(inside.any(axis=0)).tolist()) if par_rows.size else frozenset[int]()
+
     # ---- kernels ------------------------------------------------------------------------------------------------
     def _kernel(self, group: Group, par_rows: Ints) -> int:
         """Number of the kernel of a group."""
-        inside = (par_rows >= self.n_par) & (par_rows < self.n_par + self.n_inputs)
-        driven = frozenset(np.flatnonzero(inside.any(axis=0)).tolist()) if par_rows.size else frozenset[int]()
+        driven = self._inputs_among(par_rows)
         key = (id(group.kernel), driven)
         if key not in self.kernels:
             self.kernels[key] = len(self.written)
@@ -171,13 +175,7 @@ class Families:
             (f"dres[{i}]", e) for i, e in enumerate(kernel.residuals)
         ]
 
-        def tangent(leaf: Expr) -> str | None:
-            if leaf.op == "time":
-                return "dt"
-            if leaf.op == "par":
-                return None if constant and not self._driven(kernel, leaf.value) else f"dp[q[{leaf.value}]]"
-            return f"dv[r[{leaf.value}]]"
-
+        tangent = _tangent_leaf(lambda slot: constant and not self._driven(kernel, slot))
         writer = Writer(kernel.straight, _leaf(kernel.slots), tangent)
         head = f"static inline void {name}({_ARGUMENTS}, {_TANGENTS})"
         return braces(head, writer.function((), outputs))
@@ -206,24 +204,43 @@ class Families:
 
     def switches(self, roots: list[Family], begin: list[str]) -> str:
         """The functions whose change of sign is an event."""
-        low = self.lowered
-        ids = np.concatenate([np.zeros(0, np.int64), *(f.var_rows.ravel() for f in roots)])
-        loops = self.loops(low.closure(ids, residuals=False))
-        lines = [*begin, "double *f = m->f;", *(line for loop in loops for line in loop.lines("values"))]
+        return braces(f"AC_UNUSED static void ac_roots({_AT}, double *g)", self._expressions(roots, begin, "values"))
+
+    def constraints(self, begin: list[str], d_begin: list[str]) -> tuple[str, str, str]:
+        """The retained constraints, and their tangents: of `sweep` and `along`."""
+        families = self.lowered.schedule.invariants
+        head = f"{_AT_Z}, const ac_vector *dz, ac_vector *dg"
+        sweep = ["ac_vector *dp = m->dpi; ac_feed_rates(m, dt);", *self._expressions(families, d_begin, "sweep")]
+        along = ["const ac_vector *dp = m->dp;", *self._expressions(families, d_begin, "along")]
+        return (
+            braces(f"static void ac_constraints({_AT}, double *g)", self._expressions(families, begin, "values")),
+            braces(f"static void ac_constraints_sweep({head})", [_STANDS_STILL, *sweep]),
+            braces(f"static void ac_constraints_along({head})", [_STANDS_STILL, *along]),
+        )
+
+    def _expressions(self, families: list[Family], begin: list[str], kind: str) -> list[str]:
+        """Statements ``g[i] = residual``, or for tangents ``dg[i] = ...``, with all that is needed before."""
+        ids = np.concatenate([np.zeros(0, np.int64), *(f.var_rows.ravel() for f in families)])
+        loops = self.loops(self.lowered.closure(ids, residuals=False))
+        values = kind == "values"
+        lines = [*begin, "double *f = m->f;" if values else "ac_vector *df = m->swept;", *_lines(loops, kind)]
         first = 0
-        for family in roots:
+        for family in families:
             residual = reduce_strength((family.residual,))[0]
-            writer = Writer(Straight(0, {}, []), _leaf(family.var_rows.shape[1]))
+            driven = self._inputs_among(family.par_rows)
+            tangent = None if values else _tangent_leaf(lambda slot, d=driven: kind == "sweep" and slot not in d)
+            writer = Writer(Straight(0, {}, []), _leaf(family.var_rows.shape[1]), tangent)
             rows, pars = self.tables.add(family.var_rows), self.tables.add(family.par_rows)
             step = f"r += {family.var_rows.shape[1]}, q += {family.par_rows.shape[1]}"
+            put = [(f"{'g' if values else 'dg'}[{first} + i]", residual)]
             lines.append("{")
             lines.append(f"    const int *r = {rows}, *q = {pars};")
             lines.append(f"    for (long i = 0; i < {family.size}; i++, {step}) {{")
-            lines += ["        " + line for line in writer.function([(f"g[{first} + i]", residual)])]
+            lines += ["        " + line for line in (writer.function(put) if values else writer.function((), put))]
             lines += ["    }", "    (void)r; (void)q;", "}"]
             first += family.size
-        lines.append("(void)f; (void)t; (void)p; (void)v; (void)g;")
-        return braces("AC_UNUSED static void ac_roots(const ac_model *m, double t, const double *z, double *g)", lines)
+        unused = "(void)f; (void)g;" if values else "(void)df; (void)dt; (void)dp; (void)dg;"
+        return [*lines, f"(void)t; (void)p; (void)v; {unused}"]
 
     # ---- loops --------------------------------------------------------------------------------------------------
     def loops(self, groups: list[int]) -> list[_Loop]:
@@ -262,6 +279,9 @@ class Families:
         return _Loop(group.size, rows=rows, pars=signs, columns=len(slots) + 1)
 
 
+_AT_Z = "const ac_model *m, double t"
+_AT = f"{_AT_Z}, const double *z"
+_STANDS_STILL = "const ac_vector dt = ac_zero;"
 _ARGUMENTS = "double t, double *restrict v, const double *p, const int *r, const int *q"
 _TANGENTS = "ac_vector dt, ac_vector *restrict dv, const ac_vector *dp, ac_vector *dres"
 _SECOND = (
@@ -279,6 +299,19 @@ def _leaf(slots: int) -> Callable[[Expr], str]:
                 return f"pa[q[{node.value - RATE}]]"
             return "ta" if node.value == RATE - 1 else f"p[q[{node.value}]]"
         return f"v[r[{node.value}]]" if node.value < slots else f"va[r[{node.value - slots}]]"
+
+    return text
+
+
+def _tangent_leaf(still: Callable[[int], bool]) -> Callable[[Expr], str | None]:
+    """Tangents of leaves; parameter slots for which `still` holds do not move."""
+
+    def text(leaf: Expr) -> str | None:
+        if leaf.op == "time":
+            return "dt"
+        if leaf.op == "par":
+            return None if still(leaf.value) else f"dp[q[{leaf.value}]]"
+        return f"dv[r[{leaf.value}]]"
 
     return text
 
@@ -393,8 +426,12 @@ def functions(families: Families, roots: Roots | None = None) -> tuple[list[str]
          "(void)t; (void)ta; (void)p; (void)pa; (void)v; (void)dp;"],
     )  # fmt: skip
     switches = families.switches(roots.families if roots is not None else [], begin)
-    kernels = families.kernel_functions(False)
-    return [*kernels, values, observe, sweep, switches], [*families.kernel_functions(True), along, second]
+    own, moving = [values, observe, sweep, switches], [along, second]
+    if low.n_g:
+        constraints = families.constraints(begin, d_begin)
+        own += constraints[:2]
+        moving.append(constraints[2])
+    return [*families.kernel_functions(False), *own], [*families.kernel_functions(True), *moving]
 
 
 def _computed(low: Lowered) -> Any:

@@ -30,6 +30,8 @@ RUNTIME = (
     "acausal.h", "solver.h", "events.h", "scan.h", "explicit.h", "projection.h", "families.h", "initialize.h", "start.h"
 )  # fmt: skip
 TANGENTS = "AC_TANGENTS"
+DENSE = 4_000_000
+"""Numbers in the matrices of the projection, which are dense, up to which the native engine takes a large system."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,11 +81,12 @@ def to_c(
         observe_tangent: add the tangents of all variables, for systems that are written out.
 
     Raises:
-        NotInC: the model calls Python functions; or it is large and has retained constraints.
+        NotInC: the model calls Python functions; or it has very many retained constraints.
     """
     if loops:
-        if problem.lowered.n_g:
-            raise NotInC("a large model with retained constraints is left to the diffrax engine")
+        low = problem.lowered
+        if low.n_g * low.n_x + (low.n_w * low.n_x if low.n_g else 0) > DENSE:
+            raise NotInC(f"{low.n_g} retained constraints of {low.n_x} states are left to the diffrax engine")
         text, tables = large_file(problem.lowered, program.flat.n_par, len(program.flat.inputs), roots)
         return CSource(text, runtime_files(), tables)
     return CSource(_Small(program, problem, labels, roots, further).file(observe_tangent), runtime_files())

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy import sparse
 
+from ...dae.coloring import color_columns
+from ..sparsity import condition_pattern
 from .factor import plan_factors
 from .families import Families, factor_tables, functions
 from .tableau import tableau_lines
@@ -29,13 +31,18 @@ def large_file(lowered: Lowered, n_par: int, n_inputs: int, roots: Roots | None 
     plan = plan_factors(numbered, np.arange(n) < lowered.n_x)
     tables = families.tables
     colors = int(families.color.max(initial=-1)) + 1
+    bound = condition_pattern(lowered, np.zeros(0, np.int64), lowered.schedule.invariants)[lowered.n_w :].tocoo()
+    g_color = np.asarray(color_columns(bound.tocsr()), np.int64)
     sizes = {
         "AC_N": n, "AC_NX": lowered.n_x, "AC_NZ": coo.nnz, "AC_NF": plan.size, "AC_NC": 0, "AC_NU": n_inputs,
-        "AC_NPAR": n_par, "AC_NP": lowered.n_p, "AC_NG": 0, "AC_NGZ": 0, "AC_NI": 0, "AC_NIZ": 0,
+        "AC_NPAR": n_par, "AC_NP": lowered.n_p, "AC_NG": lowered.n_g, "AC_NGZ": bound.nnz, "AC_G_COLORS": int(g_color.max(initial=-1)) + 1, "AC_NI": 0, "AC_NIZ": 0,
         "AC_NALL": lowered.n_ids, "AC_NR": 0 if roots is None else roots.count, "AC_COLORS": colors,
         "AC_LU_SIZE": len(plan.indices),
     }  # fmt: skip
-    places = {"AC_COLOR_TABLE": families.color, "AC_ROW_TABLE": coo.row, "AC_COLUMN_TABLE": coo.col}
+    places = {
+        "AC_COLOR_TABLE": families.color, "AC_ROW_TABLE": coo.row, "AC_COLUMN_TABLE": coo.col,
+        "AC_G_COLOR_TABLE": g_color, "AC_G_ROW_TABLE": bound.row, "AC_G_COLUMN_TABLE": bound.col,
+    }  # fmt: skip
     if roots is not None:
         places |= {"AC_ROOT_SLOT_TABLE": roots.slots, "AC_ROOT_STRICT_TABLE": roots.strict}
     head = ["#define AC_FAMILIES 1", *(f"#define {name} {value}" for name, value in sizes.items())]
@@ -45,6 +52,7 @@ def large_file(lowered: Lowered, n_par: int, n_inputs: int, roots: Roots | None 
     head += factor_tables(plan, tables)
     head += [
         "#define ac_row (w->m.index[AC_ROW_TABLE])", "#define ac_column (w->m.index[AC_COLUMN_TABLE])",
+        "#define ac_g_row (w->m.index[AC_G_ROW_TABLE])", "#define ac_g_column (w->m.index[AC_G_COLUMN_TABLE])",
         "#define ac_nominal (w->m.nominal)", "#define ac_root_slot (w->m.index[AC_ROOT_SLOT_TABLE])",
         "#define ac_root_strict (w->m.index[AC_ROOT_STRICT_TABLE])",
     ]  # fmt: skip

@@ -27,6 +27,27 @@ static void ac_field_jacobian(const ac_model *m, double t, const double *z, doub
     }
 }
 
+#if AC_NG > 0
+/* The retained constraints and the nonzeros of their Jacobian. */
+static void ac_invariants(const ac_model *m, double t, const double *z, double *g, double *G) {
+    const int *color = m->index[AC_G_COLOR_TABLE], *row = m->index[AC_G_ROW_TABLE];
+    const int *column = m->index[AC_G_COLUMN_TABLE];
+    ac_vector dg[AC_NG];
+    ac_constraints(m, t, z, g);
+    for (int first = 0; first < AC_G_COLORS; first += AC_LANES) {
+        for (int i = 0; i < AC_N; i++) {
+            m->seed[i] = ac_zero;
+            if (color[i] >= first && color[i] < first + AC_LANES) m->seed[i][color[i] - first] = 1.0;
+        }
+        ac_constraints_sweep(m, t, m->seed, dg);
+        for (int e = 0; e < AC_NGZ; e++) {
+            const int lane = color[column[e]] - first;
+            if (lane >= 0 && lane < AC_LANES) G[e] = dg[row[e]][lane];
+        }
+    }
+}
+#endif
+
 /* Row by row: F holds L and U of the permuted W = d M - J, then the inverse pivots. */
 static int ac_factor(const ac_model *m, double d, const double *J, double *F) {
     const int *ptr = AC_LU_PTR(m), *col = AC_LU_COL(m), *entry = AC_LU_ENTRY(m), *mass = AC_LU_MASS(m);
@@ -80,4 +101,12 @@ static void ac_field_tangent(const ac_model *m, double t, const double *z, const
     ac_field(m, t, z, m->f);
     ac_along(m, t, ac_zero, dz, df);
 }
+
+#if AC_NG > 0
+static void ac_invariants_tangent(const ac_model *m, double t, const double *z, const ac_vector *dz, ac_vector *dg) {
+    double g[AC_NG];
+    ac_constraints(m, t, z, g);
+    ac_constraints_along(m, t, dz, dg);
+}
+#endif
 #endif

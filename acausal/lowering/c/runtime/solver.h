@@ -57,6 +57,10 @@ typedef struct { /* of the normal equations of projection.h */
 } ac_projection;
 #endif
 
+#if defined(AC_FAMILIES) && AC_N > 500
+#define AC_SPARSE_ONLY /* no room for dense factors with pivots, which are made where those of fixed order fail */
+#endif
+
 typedef struct {
     ac_model m;
     double c[AC_NC + 1], u[AC_NU + 1], du[AC_NU + 1];
@@ -65,7 +69,8 @@ typedef struct {
 #ifdef AC_FAMILIES
     double p[AC_NP + 1], all[AC_NALL], all_a[AC_NALL], rates[AC_NP + 1], f_all[AC_N];
     ac_vector d_all[AC_NALL], d_inputs[AC_NP + 1], seed[AC_N], swept[AC_N];
-#else
+#endif
+#ifndef AC_SPARSE_ONLY
     int pivot[AC_N];
     double dense[AC_N * AC_N];
 #endif
@@ -103,7 +108,7 @@ static void ac_room(ac_model *m, ac_work *w, const double *p) {
 static int ac_factorise(ac_work *w, double d) {
     w->pivoted = ac_factor(&w->m, d, w->J, w->F);
     if (!w->pivoted) return 0;
-#ifdef AC_FAMILIES
+#ifdef AC_SPARSE_ONLY
     return 1;
 #else
     memset(w->dense, 0, sizeof w->dense);
@@ -120,7 +125,7 @@ static int ac_factorise(ac_work *w, double d) {
 #endif
 }
 
-#ifdef AC_FAMILIES
+#ifdef AC_SPARSE_ONLY
 #define AC_BACK(NAME, TYPE, FAST, DENSE) \
     static void NAME(const ac_work *w, TYPE *b) { FAST(&w->m, w->F, b); }
 #else
