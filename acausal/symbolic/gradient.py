@@ -12,7 +12,6 @@ from .expr import Expr
 from .operators import OPERATORS
 from .traverse import apply, postorder_missing
 
-
 LARGEST_EXPONENT = 5.0
 
 

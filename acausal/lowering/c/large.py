@@ -35,7 +35,8 @@ def large_file(lowered: Lowered, n_par: int, n_inputs: int, roots: Roots | None 
     g_color = np.asarray(color_columns(bound.tocsr()), np.int64)
     sizes = {
         "AC_N": n, "AC_NX": lowered.n_x, "AC_NZ": coo.nnz, "AC_NF": plan.size, "AC_NC": 0, "AC_NU": n_inputs,
-        "AC_NPAR": n_par, "AC_NP": lowered.n_p, "AC_NG": lowered.n_g, "AC_NGZ": bound.nnz, "AC_G_COLORS": int(g_color.max(initial=-1)) + 1, "AC_NI": 0, "AC_NIZ": 0,
+        "AC_NPAR": n_par, "AC_NP": lowered.n_p, "AC_NG": lowered.n_g, "AC_NGZ": bound.nnz,
+        "AC_G_COLORS": int(g_color.max(initial=-1)) + 1, "AC_NI": 0, "AC_NIZ": 0,
         "AC_NALL": lowered.n_ids, "AC_NR": 0 if roots is None else roots.count, "AC_COLORS": colors,
         "AC_LU_SIZE": len(plan.indices),
     }  # fmt: skip
