@@ -17,6 +17,8 @@ COMMANDS = (
     ["benchmarks.solvers"],
     ["benchmarks.work_precision"],
     ["benchmarks.paper_table"],
+    ["benchmarks.fmu"],
+    ["benchmarks.cosimulation"],
     ["benchmarks.gradients"],
     ["benchmarks.ensembles"],
     ["benchmarks.calibration"],

@@ -12,6 +12,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 RESULTS = Path(__file__).with_name("RESULTS.md")
+DOCS = Path(__file__).parents[1] / "docs"
 HEAD = """# Measured
 
 Every table names the command that makes it and is replaced when that command runs again (`make bench` runs them all).
@@ -43,10 +44,20 @@ class Section:
 
     def markdown(self) -> str:
         """The section as it stands in the file."""
+        parts = [f"## {self.title}", self._source(), self.text, self._table(), self.after]
+        return "\n\n".join(part for part in parts if part) + "\n"
+
+    def quotation(self) -> str:
+        """The table with its source, for a document."""
+        return f"{self._table()}\n\n{self._source()}\n"
+
+    def _source(self) -> str:
+        return f"`{self.command}` ({conditions()})"
+
+    def _table(self) -> str:
         lines = ["| " + " | ".join(line) + " |" for line in (self.header, *self.rows)]
         lines.insert(1, "|" + "|".join("---" if i == 0 else "--:" for i in range(len(self.header))) + "|")
-        parts = [f"## {self.title}", f"`{self.command}` ({conditions()})", self.text, "\n".join(lines), self.after]
-        return "\n\n".join(part for part in parts if part) + "\n"
+        return "\n".join(lines)
 
 
 def conditions() -> str:
@@ -59,16 +70,34 @@ def conditions() -> str:
     return f"{today}, Python {platform.python_version()}{jax}, {os.cpu_count()} processors"
 
 
-def write(section: Section, path: Path = RESULTS) -> None:
-    """Print a section and put it into the file, in the place of the one with its key."""
+def write(section: Section, path: Path = RESULTS, docs: Path = DOCS) -> None:
+    """Print a section and put it into the file, in the place of the one with its key.
+
+    Documents that quote the table between ``<!-- key -->`` and ``<!-- end key -->`` get the new one.
+    """
     body = section.markdown()
     print(body)
-    begin, end = f"<!-- {section.key} -->", f"<!-- end {section.key} -->"
-    block = f"{begin}\n{body}{end}\n"
     text = path.read_text(encoding="utf-8") if path.exists() else HEAD
+    replaced = _replaced(text, section.key, body)
+    if replaced is None:
+        begin, end = _marks(section.key)
+        replaced = f"{text.rstrip()}\n\n{begin}\n{body}{end}\n"
+    path.write_text(replaced, encoding="utf-8")
+    for document in sorted(docs.glob("*.md")):
+        quoted = _replaced(document.read_text(encoding="utf-8"), section.key, section.quotation())
+        if quoted is not None:
+            document.write_text(quoted, encoding="utf-8")
+
+
+def _marks(key: str) -> tuple[str, str]:
+    return f"<!-- {key} -->", f"<!-- end {key} -->"
+
+
+def _replaced(text: str, key: str, body: str) -> str | None:
+    """The text with another body between the marks of a key; None if it has none."""
+    begin, end = _marks(key)
     pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end) + "\n", re.DOTALL)
-    text = pattern.sub(lambda _: block, text) if pattern.search(text) else f"{text.rstrip()}\n\n{block}"
-    path.write_text(text, encoding="utf-8")
+    return pattern.sub(lambda _: f"{begin}\n{body}{end}\n", text) if pattern.search(text) else None
 
 
 def seconds(value: float) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ..errors import AcausalError, UnknownNameError
@@ -28,8 +28,16 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--traceback", action="store_true", help="on an error show where in the code it arose")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
 
-    demo = commands.add_parser("demo", help="simulate the reference crane in four variants and draw its figures")
-    demo.add_argument("--out", type=Path, default=Path("demo"), metavar="DIR", help="folder of the figures (demo)")
+    demo = commands.add_parser("demo", help="the reference crane: four variants, or co-simulation; tables and figures")
+    demo.add_argument(
+        "what",
+        nargs="?",
+        choices=("crane", "cosim"),
+        default="crane",
+        help="crane: simulate the four variants (default); cosim: co-simulate it as FMUs and with MuJoCo",
+    )
+    demo.add_argument("--out", type=Path, metavar="DIR", help="folder of the figures (demo, demo/cosim)")
+    demo.add_argument("--quick", action="store_true", help="cosim: a short run, which shows that everything works")
     _progress_option(demo)
 
     simulate = _with_model(commands, "simulate", "simulate a model; plot it and save its trajectories")
@@ -124,15 +132,28 @@ def _say(chosen: argparse.Namespace, error: Exception, status: int) -> int:
     return status
 
 
+def _demo(chosen: argparse.Namespace, stage: Callable[[str], None]) -> None:
+    if chosen.what == "cosim":
+        from models.kbc import cosimulation_demo
+
+        cosimulation_demo.run(chosen.out or Path("demo", "cosim"), stage, quick=chosen.quick)
+        return
+    if chosen.quick:
+        from .targets import UsageError
+
+        raise UsageError("--quick is for `demo cosim`")
+    from models.kbc import demo
+
+    demo.run(chosen.out or Path("demo"), stage)
+
+
 def _run(chosen: argparse.Namespace) -> int:
     os.environ.setdefault("JAX_ENABLE_X64", "1")
     from .status import Status
 
     with Status(chosen.progress) as status:
         if chosen.command == "demo":
-            from models.kbc.demo import run
-
-            run(chosen.out, status.stage)
+            _demo(chosen, status.stage)
             return 0
         from . import commands
 
