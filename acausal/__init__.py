@@ -76,6 +76,22 @@ from .language.functions import time as time
 from .language.functions import where as where
 from .language.modification import modify as modify
 from .language.modification import redeclare as redeclare
+from .language.overdetermined import Overdetermined as Overdetermined
+from .language.overdetermined import branch as branch
+from .language.overdetermined import choose as choose
+from .language.overdetermined import defining as defining
+from .language.overdetermined import derivative_rule as derivative_rule
+from .language.overdetermined import is_root as is_root
+from .language.overdetermined import potential_root as potential_root
+from .language.overdetermined import root as root
+from .language.overdetermined import rooted as rooted
+from .language.vectors import Matrix as Matrix
+from .language.vectors import Vector as Vector
+from .language.vectors import cross as cross
+from .language.vectors import dot as dot
+from .language.vectors import matrix as matrix
+from .language.vectors import norm as norm
+from .language.vectors import vector as vector
 from .symbolic.expr import Expr as Expr
 
 if TYPE_CHECKING:

@@ -18,6 +18,7 @@ from .lowering.initial import initial_problem
 from .lowering.lowered import Lowered
 from .lowering.parameters import ParameterProgram
 from .passes.aliases import Reduced, eliminate_aliases
+from .passes.evaluate import evaluate_parameters
 from .passes.events import extract_events
 from .passes.inputs import input_equations
 from .passes.regularize import regularize
@@ -80,6 +81,7 @@ def compile(
     counts = {"variables": flat.n_var, "equations": _declared(flat)}
     clock("units", lambda: check_units(flat))
     flat = clock("inputs", lambda: input_equations(flat, inputs, outputs))
+    flat = clock("evaluate", lambda: evaluate_parameters(flat))
     system = finish(flat, clock, counts, located=False)
     system.outputs = tuple(outputs)
     system.made_from = (model, tuple(inputs), tuple(outputs))
@@ -101,7 +103,7 @@ def finish(written: FlatModel, clock: Clock, counts: dict[str, int], *, located:
     clock("structure check", lambda: check_structure(reduced))
     low_index = clock("index reduction", lambda: regularize(reduced, program.generic))
     selected = clock("states", lambda: select_states(low_index, program.default))
-    schedule = clock("sort and tear", lambda: make_schedule(selected))
+    schedule = clock("sort and tear", lambda: make_schedule(selected, program.default))
     lowered = clock("lower", lambda: Lowered(schedule, _nominal(flat, reduced, len(low_index.unknown)), program.n_p))
     extended = _extended(reduced, flat.n_total)
     initial = specialize(flat.initial, *extended)

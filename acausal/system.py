@@ -13,6 +13,7 @@ from .errors import InitializationError, UnknownNameError
 from .language.component import Component
 from .language.flat_model import FlatModel
 from .language.template import Ints
+from .language.vectors import Quantities
 from .listing import equation_lines
 from .lowering.bounds import check_parameters
 from .lowering.hybrid import Hybrid
@@ -98,7 +99,8 @@ class System:
         """Tunable parameters: dotted name to default value."""
         flat, program = self.stages.flat, self.program
         names = flat.names.all_parameters
-        return {n: float(program.default[i]) for i, n in enumerate(names) if not program.dependent[i]}
+        free = np.flatnonzero(~program.dependent[: flat.n_par] & ~flat.evaluated)
+        return {names[i]: float(program.default[i]) for i in free.tolist()}
 
     @cached_property
     def states(self) -> tuple[str, ...]:
@@ -146,6 +148,8 @@ class System:
         Raises:
             UnknownNameError: with the nearest names.
         """
+        if isinstance(key, Quantities) and "path" in key.__dict__:
+            key = path_text(key.__dict__["path"])
         text = path_text(key.value) if isinstance(key, Expr) and key.op == "symbol" else str(key)
         flat = self.stages.flat
         if text.startswith("der(") and text.endswith(")"):

@@ -16,7 +16,7 @@ from .errors import UnitError, nearest
 from .language.flat_model import FlatModel
 from .language.template import Path, Template
 from .symbolic.equation import Origin
-from .symbolic.expr import Expr, symbol
+from .symbolic.expr import Expr, make, symbol
 from .symbolic.operators import OPERATORS
 from .symbolic.printing import path_text
 from .symbolic.traverse import leaves, postorder
@@ -97,11 +97,14 @@ class _Checker:
         """All statements of the template."""
         for declaration in self.template.cls._declarations.values():
             unit_of(declaration)
-        for equation in (*self.template.equations, *self.template.initial):
+        chosen = (choice.equation for choice in self.template.choices)
+        for equation in (*self.template.equations, *self.template.initial, *chosen):
             self._equal(equation.lhs, equation.rhs, equation.origin)
         for action in self.template.actions:
             form = action.form
-            if form.op == "reinit":
+            if form.op == "rule":
+                self._equal(make("der", form.args[:1]), form.args[1], action.origin, "`derivative_rule` gives")
+            elif form.op == "reinit":
                 self._equal(form.args[0], form.args[2], action.origin, f"`reinit` gives `{form.args[0]}`")
             else:
                 self._equal(form.args[0], form.args[0], action.origin)

@@ -120,12 +120,13 @@ def signature_index(c: IntArray, d: IntArray) -> int:
     return (int(np.max(c)) if len(c) else 0) + int(bool(np.any(np.asarray(d) == 0)))
 
 
-def pantelides(g: Incidence, derivative_of: IntArray) -> PantelidesResult:
+def pantelides(g: Incidence, derivative_of: IntArray, extra: Incidence | None = None) -> PantelidesResult:
     """Differentiate rows until the rows not differentiated further can be matched to highest derivatives.
 
     Args:
         g: Incidence of the rows with columns for variables and for the derivatives that occur.
         derivative_of: Column of the derivative of each column, or -1, shape `(n_columns,)`.
+        extra: Columns that the derivative of each row has besides, from variables that are no unknowns here.
 
     Raises:
         StructurallySingular: If no number of differentiations helps.
@@ -142,16 +143,19 @@ def pantelides(g: Incidence, derivative_of: IntArray) -> PantelidesResult:
     """
     derivative_of = np.asarray(derivative_of, dtype=np.int64)
     base, _ = base_and_order(derivative_of)
-    _check_regular(g, base)
+    _check_regular(g, base, extra)
     first = maximum_matching(g, allowed=(derivative_of < 0)[g.indices])
-    work = _Augmentation(g, derivative_of, first)
+    work = _Augmentation(g, derivative_of, first, extra)
     for row in np.flatnonzero(first < 0).tolist():
         work.match(row)
     return work.result()
 
 
-def _check_regular(g: Incidence, base: IntArray) -> None:
-    collapsed = Incidence.from_coo(g.edge_rows(), base[g.indices], g.n_rows, g.n_columns)
+def _check_regular(g: Incidence, base: IntArray, extra: Incidence | None) -> None:
+    rows, columns = g.edge_rows(), g.indices
+    if extra is not None:
+        rows, columns = np.concatenate((rows, extra.edge_rows())), np.concatenate((columns, extra.indices))
+    collapsed = Incidence.from_coo(rows, base[columns], g.n_rows, g.n_columns)
     column_of_row = maximum_matching(collapsed)
     unmatched = np.flatnonzero(column_of_row < 0)
     if unmatched.size:
@@ -161,8 +165,12 @@ def _check_regular(g: Incidence, base: IntArray) -> None:
 class _Augmentation:
     """The growing system and its matching, as lists that only the touched part is read from."""
 
-    def __init__(self, g: Incidence, derivative_of: IntArray, column_of_row: IntArray) -> None:
+    def __init__(
+        self, g: Incidence, derivative_of: IntArray, column_of_row: IntArray, extra: Incidence | None
+    ) -> None:
         self.g = g
+        self.extra = extra
+        self.origin = list(range(g.n_rows))  # the given row that each row is a derivative of
         self.derivative_of: list[int] = derivative_of.tolist()
         self.row_derivative_of = [-1] * g.n_rows
         self.column_of_row: list[int] = column_of_row.tolist()
@@ -223,7 +231,10 @@ class _Augmentation:
             self.row_derivative_of[i] = new
             self.row_derivative_of.append(-1)
             self.new_rows.append(i)
-            self.rows[new] = sorted({*self.row(i), *(self.derivative_of[j] for j in self.row(i))})
+            base = self.origin[i]
+            self.origin.append(base)
+            more: list[int] = [] if self.extra is None else self.extra.row(base).tolist()
+            self.rows[new] = sorted({*self.row(i), *(self.derivative_of[j] for j in self.row(i)), *more})
             column = self.column_of_row[i]
             self.column_of_row[i] = -1
             self.column_of_row.append(-1)

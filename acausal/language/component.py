@@ -11,12 +11,16 @@ from ..errors import DeclarationError, nearest
 from ..symbolic.equation import Equation
 from ..symbolic.expr import Expr
 from .declarations import Declaration, Kind, Start, Structural
+from .vectors import Quantities, VectorEquation
 
 if TYPE_CHECKING:
     from .connections import Connect
     from .events import Assert, When
+    from .overdetermined import Choice, DerivativeRule, Mark
 
-Equations = Generator["Equation | Connect | When | Assert", None, None]
+Equations = Generator[
+    "Equation | VectorEquation | Connect | When | Assert | Choice | Mark | DerivativeRule", None, None
+]
 """Return type of `equations` and `initial_equations`."""
 
 C = TypeVar("C", bound="Component")
@@ -34,6 +38,7 @@ class Component:
     _declarations: ClassVar[dict[str, Declaration]] = {}
     _structural: ClassVar[dict[str, Structural]] = {}
     _children: ClassVar[dict[str, Child]] = {}
+    _vectors: ClassVar[dict[str, Quantities]] = {}
     _partial: ClassVar[bool] = True
     _source: ClassVar[tuple[str, int]] = ("", 0)
 
@@ -49,6 +54,7 @@ class Component:
 
     def __init__(self, **modifications: Any) -> None:
         # modifications are checked one by one below; the class body gives the type checker their names and types
+        modifications = by_element(type(self), modifications)
         for name, value in modifications.items():
             modifications[name] = checked(type(self), name, value)
         self.__dict__["_mods"] = modifications
@@ -230,7 +236,25 @@ def path_of(component: Component) -> str:
 
 def field_names(cls: type[Component]) -> list[str]:
     """All fields of a class."""
-    return [*cls._declarations, *cls._structural, *cls._children]
+    return [*cls._declarations, *cls._vectors, *cls._structural, *cls._children]
+
+
+def by_element(cls: type[Component], modifications: Mapping[str, Any]) -> dict[str, Any]:
+    """Modifications with those of vectors and matrices given to their elements."""
+    if not cls._vectors or not modifications.keys() & cls._vectors.keys():
+        return dict(modifications)
+    out: dict[str, Any] = {}
+    for name, value in modifications.items():
+        whole = cls._vectors.get(name)
+        out.update({name: value} if whole is None else _located_elements(cls, whole, value))
+    return out
+
+
+def _located_elements(cls: type[Component], whole: Quantities, value: Any) -> dict[str, Any]:
+    try:
+        return whole.modifications(value)
+    except DeclarationError as error:
+        raise DeclarationError(f"`{cls.__name__}({whole.name}=...)`: {error} {call_site()}") from None
 
 
 def view(child: Any, path: tuple[Any, ...]) -> Any:
@@ -326,7 +350,7 @@ def combined(default: Start, given: Start) -> Start:
 def with_modifications(component: C, mods: Mapping[str, Any]) -> C:
     """A copy of `component` with modifications added (checked)."""
     copy = object.__new__(type(component))
-    new = {k: checked(type(component), k, v) for k, v in mods.items()}
+    new = {k: checked(type(component), k, v) for k, v in by_element(type(component), mods).items()}
     copy.__dict__["_mods"] = {**component.__dict__["_mods"], **new}
     copy.__dict__["_path"] = ()
     return copy
@@ -356,13 +380,22 @@ def _collect(cls: type[Component]) -> None:
     declarations: dict[str, Declaration] = {}
     structural: dict[str, Structural] = {}
     children: dict[str, Child] = {}
+    vectors: dict[str, Quantities] = {}
     for base in reversed(cls.__mro__[1:]):
         if issubclass(base, Component) and base is not Component:
+            vectors.update(base.__dict__.get("_vectors", {}))
             for table, own in ((declarations, "_declarations"), (structural, "_structural"), (children, "_children")):
                 table.update(base.__dict__.get(own, {}))  # type: ignore[arg-type]
     annotations = inspect.get_annotations(cls)
     for name, value in list(cls.__dict__.items()):
         if name.startswith("_"):
+            continue
+        replaced = vectors.pop(name, None)
+        for element in replaced.names() if replaced is not None else ():
+            declarations.pop(element)
+        if isinstance(value, Quantities):
+            vectors[name] = value
+            declarations.update(zip(value.names(), value.elements, strict=True))
             continue
         _collect_one(cls, name, value, annotations.get(name), declarations, structural, children)
     for name in annotations:
@@ -372,7 +405,7 @@ def _collect(cls: type[Component]) -> None:
                 f"field `{cls.__name__}.{name}` has a type but no value: write `{name}: {annotations[name]} = ...` "
                 f"({cls._source[0]}:{cls._source[1]})"
             )
-    cls._declarations, cls._structural, cls._children = declarations, structural, children
+    cls._declarations, cls._structural, cls._children, cls._vectors = declarations, structural, children, vectors
 
 
 def _known(name: str, *tables: Mapping[str, Any]) -> bool:

@@ -14,7 +14,7 @@ from ..symbolic.equation import Origin
 from ..symbolic.expr import add, neg, var
 from .connections import Connect
 from .declarations import Kind
-from .flat_model import Family, Source
+from .flat_model import Bools, Family, Source
 from .template import Ints, Path, Template
 
 Edge = tuple[Ints, Ints, int]
@@ -118,17 +118,28 @@ class _Collector:
         )  # fmt: skip
 
 
-def solve_connections(graph: ConnectionGraph, root: Template, sources: list[Source]) -> Joined:
-    """Equations of all connection sets of a model."""
+def solve_connections(
+    graph: ConnectionGraph, root: Template, sources: list[Source], kept: dict[Any, dict[int, Bools]]
+) -> Joined:
+    """Equations of all connection sets of a model.
+
+    Args:
+        graph: the connections.
+        root: template of the model.
+        sources: where statements were written; those of unconnected connectors are added.
+        kept: by interface, for the offset of a quantity the edges over which it is equal, where these are not all.
+    """
     out = _Collector()
     for a, b, source in graph.signals:
         out.alias.append((a, b, 1, np.full(len(a), source), np.arange(len(a))))
     for key in graph.connectors | graph.edges:
-        _solve_interface(graph, key, root, sources, out)
+        _solve_interface(graph, key, sources, out, kept.get(key, {}))
     return out.joined()
 
 
-def _solve_interface(graph: ConnectionGraph, key: Any, root: Template, sources: list[Source], out: _Collector) -> None:
+def _solve_interface(
+    graph: ConnectionGraph, key: Any, sources: list[Source], out: _Collector, kept: dict[int, Bools]
+) -> None:
     template = graph.templates[key]
     edges = graph.edges.get(key, [])
     a = np.concatenate([np.zeros(0, np.int64), *(e[0] for e in edges)])
@@ -152,6 +163,9 @@ def _solve_interface(graph: ConnectionGraph, key: Any, root: Template, sources: 
     for _, kind, offset in quantities(template):
         if kind == Kind.FLOW:
             _flows(nodes, offset, first, size, set_source, set_ordinal, out)
+        elif offset in kept:
+            uncut = kept[offset]
+            _pairwise(a[uncut] >> 1, b[uncut] >> 1, offset, edge_source[uncut], edge_ordinal[uncut], out)
         else:
             _potentials(nodes, label, first, offset, set_source, set_ordinal, out)
     _unconnected(graph.connectors.get(key, []), template, nodes, sources, out)
@@ -165,6 +179,11 @@ def _potentials(
     other = here != head
     chosen = label[other]
     out.alias.append((here[other] + offset, head[other] + offset, 1, source[chosen], ordinal[chosen]))
+
+
+def _pairwise(a: Ints, b: Ints, offset: int, source: Ints, ordinal: Ints, out: _Collector) -> None:
+    """Equal potentials over edges that form no loop."""
+    out.alias.append((a + offset, b + offset, 1, source, ordinal))
 
 
 def _flows(

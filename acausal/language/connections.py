@@ -8,6 +8,7 @@ from typing import Any
 from ..errors import ConnectError
 from ..symbolic.expr import Expr
 from .component import Component, Connector, call_site, path_of
+from .vectors import Vector
 
 Path = tuple[Any, ...]
 
@@ -20,8 +21,12 @@ class Connect:
     connectors: tuple[type[Connector] | None, ...]
 
 
-def connect(first: Connector | Expr, second: Connector | Expr, *more: Connector | Expr) -> Connect:
+def connect(
+    first: Connector | Expr | Vector, second: Connector | Expr | Vector, *more: Connector | Expr | Vector
+) -> Connect:
     """Join connectors: potentials become equal, flows sum to zero. Signals (`Input`, `Output`) become equal.
+
+    Vectors of signals join element by element.
 
     Slices of component arrays join element by element; one connector against a slice joins all of them in one node.
 
@@ -42,7 +47,7 @@ def connect(first: Connector | Expr, second: Connector | Expr, *more: Connector 
 def _kind(end: Any) -> type[Connector] | None:
     if isinstance(end, Connector):
         return type(end)
-    if isinstance(end, Expr) and end.op == "symbol":
+    if (isinstance(end, Expr) and end.op == "symbol") or (isinstance(end, Vector) and "path" in end.__dict__):
         return None
     what = f"component `{path_of(end)}`; connect one of its ports" if isinstance(end, Component) else f"{end!r}"
     raise ConnectError(f"connect() joins connectors, not {what} {call_site()}")
@@ -58,12 +63,14 @@ def _signature(kind: type[Connector]) -> list[tuple[str, int]]:
     return [(name, int(d.kind)) for name, d in kind._declarations.items()]
 
 
-def _path(end: Connector | Expr) -> Path:
+def _path(end: Connector | Expr | Vector) -> Path:
+    if isinstance(end, Vector):
+        return end.__dict__["path"]
     return end.value if isinstance(end, Expr) else end.__dict__["_path"]
 
 
-def _text(end: Connector | Expr) -> str:
-    return str(end) if isinstance(end, Expr) else path_of(end)
+def _text(end: Connector | Expr | Vector) -> str:
+    return path_of(end) if isinstance(end, Connector) else str(end)
 
 
 def _name(kind: type[Connector] | None) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, Literal, Self, overload
 
@@ -12,6 +13,7 @@ from ..symbolic.expr import Expr, as_expr, intern_node, symbol
 
 if TYPE_CHECKING:
     from .component import Component
+    from .vectors import Vector
 
 StateSelect = Literal["never", "avoid", "default", "prefer", "always"]
 STATE_SELECT: Final[tuple[StateSelect, ...]] = ("never", "avoid", "default", "prefer", "always")
@@ -33,14 +35,14 @@ class Kind(enum.IntEnum):
 class Start:
     """Start value and attributes of a variable in a modification, made by `start`."""
 
-    value: float | Expr | Declaration | None = None
+    value: Any = None
     fixed: bool | None = None
     nominal: float | None = None
     state_select: StateSelect | None = None
 
 
 def start(
-    value: float | Expr | Declaration | None = None,
+    value: float | Expr | Declaration | Vector | Sequence[Any] | None = None,
     *,
     fixed: bool | None = None,
     nominal: float | None = None,
@@ -49,7 +51,8 @@ def start(
     """Start value of a variable, as a modification: ``Chamber(p=start(2e5, fixed=True))``.
 
     Args:
-        value: value at the start, a number or an expression of the parameters of the class body it stands in.
+        value: value at the start, a number or an expression of the parameters of the class body it stands in; of a
+            vector, one for each element.
         fixed: True makes it an equation of the initialization; False a guess.
         nominal: typical magnitude, the scale of the solvers' error control.
         state_select: how much the compiler should want this variable as a state.
@@ -135,8 +138,10 @@ class Declaration(_Arithmetic):
         min: float | None = None,
         max: float | None = None,
         state_select: StateSelect = "default",
+        evaluate: bool = False,
     ) -> None:
         self.name = ""
+        self.evaluate = evaluate
         self.owner: type[Component] | None = None
         self.default = default
         self.unit = unit
@@ -247,6 +252,8 @@ class Parameter(Declaration):
         unit: unit string.
         min: lower bound; a value below it is an error.
         max: upper bound.
+        evaluate: build the value into the equations, where zeros and ones simplify them; it cannot be changed after
+            compiling, and neither can what it is computed from.
     """
 
     kind = Kind.PARAMETER
@@ -259,8 +266,9 @@ class Parameter(Declaration):
         doc: str = "",
         min: float | None = None,
         max: float | None = None,
+        evaluate: bool = False,
     ) -> None:
-        super().__init__(default, unit=unit, doc=doc, min=min, max=max)
+        super().__init__(default, unit=unit, doc=doc, min=min, max=max, evaluate=evaluate)
 
 
 class Structural:

@@ -6,20 +6,31 @@ import os
 import traceback
 import types
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from ..errors import AcausalError, DeclarationError
-from ..symbolic.equation import Equation, Origin
-from ..symbolic.expr import Expr, as_expr, symbol
+from ..symbolic.equation import DEFINITION, Equation, Origin
+from ..symbolic.expr import Expr, as_expr, intern_node, symbol
 from ..symbolic.traverse import leaves, substitute
 from .component import Array, Component, Connector, Shared, effective_child, merged, numbers, path_text, present, view
 from .connections import Connect
 from .declarations import STATE_SELECT, Declaration, Kind, Start
 from .events import Assert, When
-from .template import Attributes, Binding, ChildSlot, Path, Template, TemplateEquation
+from .overdetermined import Choice, DerivativeRule, Mark
+from .template import (
+    Attributes,
+    Binding,
+    ChildSlot,
+    Path,
+    Template,
+    TemplateAction,
+    TemplateChoice,
+    TemplateEquation,
+)  # fmt: skip
+from .vectors import VectorEquation
 from .when import assertion, statements
 
 
@@ -217,16 +228,26 @@ class Elaborator:
         scope = view(component, ())
         for item, origin in _run(scope, "equations"):
             if isinstance(item, Equation):
-                template.equations.append(TemplateEquation(item.lhs, item.rhs, origin))
+                template.equations.append(_equation(item, origin))
             elif isinstance(item, When):
                 equations, actions = statements(item, template, origin)
                 template.equations += equations
                 template.actions += actions
             elif isinstance(item, Assert):
                 template.actions.append(assertion(item, origin))
+            elif isinstance(item, Choice):
+                template.choices += _choices(item, origin, initial=False)
+            elif isinstance(item, DerivativeRule):
+                forms = (intern_node("rule", rule) for rule in item.rules)
+                template.actions += [TemplateAction(form, origin) for form in forms]
+            elif isinstance(item, Mark):
+                template.marks.append((item, origin))
             else:
                 template.connections.append((item, origin))
         for item, origin in _run(scope, "initial_equations"):
+            if isinstance(item, Choice):
+                template.choices += _choices(item, origin, initial=True)
+                continue
             if not isinstance(item, Equation):
                 cls, what = type(component).__name__, type(item).__name__.lower()
                 raise DeclarationError(f"initial_equations() of `{cls}` yields a {what}(), use equations() {origin}")
@@ -394,7 +415,20 @@ def _pick(value: Any, i: int, n: int, text: str) -> Any:
     return value
 
 
+def _equation(item: Equation, origin: Origin) -> TemplateEquation:
+    return TemplateEquation(item.lhs, item.rhs, replace(origin, kind=DEFINITION) if item.defines else origin)
+
+
+def _choices(item: Choice, origin: Origin, *, initial: bool) -> list[TemplateChoice]:
+    return [
+        TemplateChoice(item.condition, wanted, _equation(e, origin), initial)
+        for wanted, equations in ((True, item.then), (False, item.otherwise))
+        for e in equations
+    ]
+
+
 _KINDS: dict[type, str] = {Connect: "connect", When: "when", Assert: "assert"}
+_ITEMS = (Equation, Connect, When, Assert, Choice, Mark, DerivativeRule)
 
 
 def _run(scope: Component, method: str) -> Any:
@@ -405,7 +439,10 @@ def _run(scope: Component, method: str) -> Any:
         file, line, owner = _position(generator)
         kind = "initial" if method != "equations" else _KINDS.get(type(item), "equation")
         origin = Origin(owner, file, line, kind)
-        if not isinstance(item, (Equation, Connect, When, Assert)):
+        if isinstance(item, VectorEquation):
+            yield from ((equation, origin) for equation in item.equations)
+            continue
+        if not isinstance(item, _ITEMS):
             hint = (
                 "one side of `==` must be a variable or expression of the component"
                 if isinstance(item, bool)

@@ -127,6 +127,8 @@ class FlatModel:
         inputs: variables that are inputs of the whole model.
         actions: what happens at events beside the equations: rows of ``reinit``, ``assert``, ``terminate``.
         slots: values that change at events only; they stand behind the parameters and the inputs.
+        rules: ``rule(target, expression)``, derivatives of variables that follow from other equations.
+        evaluated: mask of the parameters that are built into the equations; `evaluated_value` are their values.
     """
 
     root: Template
@@ -157,6 +159,9 @@ class FlatModel:
     sources: list[Source] = field(default_factory=list[Source])
     actions: list[Family] = field(default_factory=list[Family])
     slots: Slots = field(default_factory=lambda: Slots())
+    rules: list[Family] = field(default_factory=list[Family])
+    evaluated: Bools = field(default_factory=lambda: np.zeros(0, bool))
+    evaluated_value: Floats = field(default_factory=lambda: np.zeros(0))
 
     @property
     def n_p(self) -> int:
@@ -325,6 +330,10 @@ class Names:
         template: Template | None = self.root
         parts: list[Any] = []
         for piece in name.split("."):
+            if template is not None and piece in template.own:  # an element of a vector has its index in its name
+                parts.append(piece)
+                template = None
+                continue
             head, _, index = piece.partition("[")
             parts.append(head)
             slot = None if template is None else template.children.get(head)

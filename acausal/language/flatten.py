@@ -18,9 +18,12 @@ from .connection_sets import ConnectionGraph, solve_connections
 from .declarations import Kind
 from .elaborate import Elaborator
 from .flat_model import Assignment, Family, FlatModel, Source, canonical
-from .template import Ints, Path, Template, TemplateAction, TemplateEquation
+from .loops import LoopFinder, holds
+from .overdetermined import Overdetermined
+from .spanning_forest import Forest
+from .template import Ints, Path, Template, TemplateAction, TemplateChoice, TemplateEquation
 
-Role = Literal["equation", "initial", "action"]
+Role = Literal["equation", "initial", "action", "rule"]
 
 
 @dataclass(slots=True)
@@ -59,6 +62,9 @@ class Flattener:
         self.par_assignments: list[Assignment] = []
         self.start_assignments: list[Assignment] = []
         self.graph = ConnectionGraph()
+        self.loops = LoopFinder()
+        self.choices: list[tuple[Visit, TemplateChoice]] = []
+        self.evaluated: list[Ints] = []
 
     def visit_all(self, root: Template) -> None:
         """Every template of the tree, owners before their parts."""
@@ -113,6 +119,9 @@ class Flattener:
         for slot in template.children.values():
             if slot.role == "outer":
                 self._check_outer(visit, slot.name, slot.templates[0])
+        for name, (is_par, offset) in template.own.items():
+            if is_par and template.cls._declarations[name].evaluate:
+                self.evaluated.append(visit.par_base + offset)
         if template.is_connector:
             self.graph.add_connectors(template, visit.var_base, visit.path)
         for equation in template.equations:
@@ -120,7 +129,13 @@ class Flattener:
         for equation in template.initial:
             self._emit_equation(visit, equation, "initial")
         for action in template.actions:
-            self._emit_equation(visit, action, "action")
+            self._emit_equation(visit, action, "rule" if action.form.op == "rule" else "action")
+        if issubclass(template.cls, Overdetermined):
+            self.loops.add_nodes(visit.var_base, visit.path)
+        for mark, origin in template.marks:
+            ids = [self._connector(visit, path)[0] for path in mark.paths]
+            self.loops.add_mark(mark, ids, Source(origin, visit.path, 1))
+        self.choices += [(visit, choice) for choice in template.choices]
         for item, origin in template.connections:
             source = self._source(visit, origin, 1)
             self.graph.add(item, [self._connector(visit, path) for path in item.paths], source, origin)
@@ -144,7 +159,19 @@ class Flattener:
         reference = visit.template.resolve(path)
         return self._ids(visit, path), reference.template, reference.inside
 
-    def _emit_equation(self, visit: Visit, equation: TemplateEquation | TemplateAction, role: Role) -> None:
+    def choose(self, forest: Forest) -> None:
+        """The equations that depend on the connection graph, for the instances that they hold for."""
+        for visit, choice in self.choices:
+            nodes = self._connector(visit, choice.condition.path)[0]
+            chosen = holds(choice.condition, nodes, forest) == choice.wanted
+            if chosen.any():
+                role: Role = "initial" if choice.initial else "equation"
+                self._emit_equation(visit, choice.equation, role, np.flatnonzero(chosen))
+
+    def _emit_equation(
+        self, visit: Visit, equation: TemplateEquation | TemplateAction, role: Role, some: Ints | None = None
+    ) -> None:
+        """One equation of all instances, or of `some` of them."""
         form = self._canonical(visit, equation)
         m = len(visit.var_base)
         size = int(np.prod(form.shape, dtype=np.int64))
@@ -156,7 +183,11 @@ class Flattener:
         key = (form.residual, orders, role)
         self.residuals[key] = form
         n = m * size
-        self.rows.setdefault(key, []).append((_stack(columns, n), _stack(parameters, n), source, n))
+        variables, numbers, ordinal = _stack(columns, n), _stack(parameters, n), np.arange(n)
+        if some is not None:
+            ordinal = (some[:, None] * size + np.arange(size)).ravel()
+            variables, numbers = variables[ordinal], numbers[ordinal]
+        self.rows.setdefault(key, []).append((variables, numbers, source, ordinal))
 
     @staticmethod
     def _broadcast(ids: Ints, m: int, shape: tuple[int, ...]) -> Ints:
@@ -286,9 +317,15 @@ def flatten(model: Component) -> FlatModel:
     template, attributes = Elaborator().root(model)
     walker = Flattener()
     walker.visit_all(template)
-    joined = solve_connections(walker.graph, template, walker.sources)
-    families, others, derivative_of, parent = _families(walker, template.var_count, joined.sums)
+    loops = walker.loops.solve(walker.graph, walker.sources)
+    walker.choose(loops.forest)
+    joined = solve_connections(walker.graph, template, walker.sources, loops.kept)
+    families, others, derivative_of, parent = _families(
+        walker, template.var_count, [*joined.sums, *loops.closures]
+    )
     n_total = len(derivative_of)
+    evaluated = np.zeros(template.par_count, bool)
+    evaluated[np.concatenate([np.zeros(0, np.int64), *walker.evaluated])] = True
     inputs = np.array([o for n, (p, o) in template.own.items() if not p and _is_input(template, n)], np.int64)
     pad = n_total - template.var_count
     return FlatModel(
@@ -305,6 +342,7 @@ def flatten(model: Component) -> FlatModel:
         select=np.pad(attributes.select, (0, pad), constant_values=2),
         kind=np.pad(attributes.kind, (0, pad), constant_values=Kind.VARIABLE),
         start_assignments=walker.start_assignments, inputs=inputs, sources=walker.sources,
+        rules=others["rule"], evaluated=evaluated, evaluated_value=np.full(template.par_count, np.nan),
     )  # fmt: skip
 
 
@@ -338,13 +376,13 @@ def _families(
         table[base] = new
         at_order.append(table)
     families: list[Family] = []
-    others: dict[Role, list[Family]] = {"initial": [], "action": []}
+    others: dict[Role, list[Family]] = {"initial": [], "action": [], "rule": []}
     for (residual, orders, role), parts in walker.rows.items():
         rows = np.concatenate([p[0] for p in parts])
         if any(orders):
             rows = np.stack([at_order[o][rows[:, k]] for k, o in enumerate(orders)], axis=1)
-        source = np.concatenate([np.full(p[3], p[2]) for p in parts])
-        ordinal = np.concatenate([np.arange(p[3]) for p in parts])
+        source = np.concatenate([np.full(len(p[3]), p[2]) for p in parts])
+        ordinal = np.concatenate([p[3] for p in parts])
         form, rows, parameters = canonical(residual, rows, np.concatenate([p[1] for p in parts]))
         others.get(role, families).append(Family(form, rows, parameters, source, ordinal))
     return [*families, *sums], others, derivative_of, parent

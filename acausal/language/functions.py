@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import builtins
-from typing import Final
+from typing import Final, overload
 
 from ..symbolic.expr import PI as PI
 from ..symbolic.expr import TIME, Expr, Operand, as_expr, make
+from .vectors import Vector, vector
 
 time: Final[Expr] = TIME
 """The independent variable [s]."""
@@ -16,9 +17,13 @@ def _apply(op: str, *args: Operand) -> Expr:
     return make(op, tuple(as_expr(a) for a in args))
 
 
-def der(x: Operand) -> Expr:
-    """Derivative of any expression with respect to time."""
-    return _apply("der", x)
+@overload
+def der(x: Vector) -> Vector: ...  # type: ignore[overload-overlap]
+@overload
+def der(x: Operand) -> Expr: ...
+def der(x: Operand | Vector) -> Expr | Vector:
+    """Derivative of any expression with respect to time; of a vector, element by element."""
+    return vector(*(_apply("der", e) for e in x)) if isinstance(x, Vector) else _apply("der", x)
 
 
 def sin(x: Operand) -> Expr:

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, TypeVar, cast
 
 from ..errors import DeclarationError, nearest
-from .component import Array, Component, Shared, call_site, checked, effective_child, merged, with_modifications
+from .component import (
+    Array,
+    Component,
+    Shared,
+    by_element,
+    call_site,
+    checked,
+    effective_child,
+    merged,
+    with_modifications,
+)  # fmt: skip
 from .declarations import Value
 
 C = TypeVar("C", bound=Component)
 
 
-def modify(model: C, changes: Mapping[str, Value]) -> C:
+def modify(model: C, changes: Mapping[str, Value | Sequence[float]]) -> C:
     """A copy of `model` with fields at dotted paths changed; the original is untouched.
 
     Args:
@@ -49,9 +59,9 @@ def _modify_one(given: C, effective: Component, parts: list[str], value: Any, pa
     head = parts[0]
     cls = type(effective)
     if len(parts) == 1:
-        old = given.__dict__["_mods"].get(head)
-        changed = checked(cls, head, value)
-        return with_modifications(given, {head: changed if old is None else merged(old, changed)})
+        old = given.__dict__["_mods"]
+        changed = {name: checked(cls, name, one) for name, one in by_element(cls, {head: value}).items()}
+        return with_modifications(given, {k: merged(old[k], v) if k in old else v for k, v in changed.items()})
     if head not in cls._children:
         name, index, _ = head.partition("[")
         if index and name in cls._children:

@@ -19,6 +19,7 @@ from ..symbolic.expr import Expr
 from .component import Component, Connector, field_names, path_text
 from .connections import Connect
 from .declarations import Kind
+from .overdetermined import Mark, RootCondition
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -40,6 +41,16 @@ class TemplateAction:
 
     form: Expr
     origin: Origin
+
+
+@dataclass(frozen=True, slots=True)
+class TemplateChoice:
+    """An equation that holds for the instances of which `condition` is as `wanted`."""
+
+    condition: RootCondition
+    wanted: bool
+    equation: TemplateEquation
+    initial: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,6 +130,8 @@ class Template:
         self.equations: list[TemplateEquation] = []
         self.initial: list[TemplateEquation] = []
         self.actions: list[TemplateAction] = []
+        self.choices: list[TemplateChoice] = []
+        self.marks: list[tuple[Mark, Origin]] = []
         self.connections: list[tuple[Connect, Origin]] = []
         self.bindings: list[Binding] = []
         self.cache: dict[Any, Any] = {}
@@ -178,6 +191,8 @@ class Template:
                     return Reference(zero, par_offset + own, declaration, None, outer, inside)
                 return Reference(offset + own, zero, declaration, None, outer, inside)
             slot = template.children.get(part)
+            if slot is None and part in template.cls._vectors:
+                return _whole(template, part, offset, par_offset, outer, inside)
             if slot is None:
                 hint = nearest(str(part), field_names(template.cls))
                 raise DeclarationError(f"`{path_text(path)}`: `{template.cls.__name__}` has no `{part}`.{hint}")
@@ -211,6 +226,18 @@ class Template:
                     head = (prefix[0], k) if slot.count is not None and slot.uniform else prefix
                     for tail, offset in below:
                         yield (*head, *tail), base + k * stride + offset
+
+
+def _whole(template: Template, name: str, offset: Ints, par_offset: Ints, outer: str | None, inside: bool) -> Reference:
+    """All elements of a vector or matrix, as a slice."""
+    names = template.cls._vectors[name].names()
+    is_par = template.own[names[0]][0]
+    own = np.array([template.own[n][1] for n in names], np.int64)
+    declaration = template.cls._declarations[names[0]]
+    none = np.zeros(np.add.outer(offset, own).shape, np.int64)
+    if is_par:
+        return Reference(none, np.add.outer(par_offset, own), declaration, None, outer, inside)
+    return Reference(np.add.outer(offset, own), none, declaration, None, outer, inside)
 
 
 def _element(slot: ChildSlot, index: Any) -> tuple[Template, Any, Any]:

@@ -37,6 +37,9 @@ def check_parameters(flat: FlatModel, p: Any) -> None:
             "depends on is."
         )
         raise InitializationError("\n".join(lines))
+    built_in = np.flatnonzero(flat.evaluated & (values[: flat.n_par] != flat.evaluated_value))
+    if len(built_in):
+        raise DeclarationError(f"`{flat.model_name}`: {evaluated_text(flat, built_in)}")
     low, high = _bounds(flat.root)
     outside = np.flatnonzero((values[: flat.n_par] < low) | (values[: flat.n_par] > high))
     if len(outside):
@@ -46,6 +49,15 @@ def check_parameters(flat: FlatModel, p: Any) -> None:
             for i in outside[:SHOWN]
         ]
         raise DeclarationError("\n".join(lines))
+
+
+def evaluated_text(flat: FlatModel, ids: Any) -> str:
+    """What to say when evaluated parameters are to be changed."""
+    names = ", ".join(f"`{flat.parameter_name(int(i))}`" for i in ids[:SHOWN])
+    return (
+        f"{names} is built into the equations (Parameter(evaluate=True), or such a parameter is computed from it): "
+        "construct the model with the new value and compile it again"
+    )
 
 
 def _many(n: int) -> str:

@@ -47,6 +47,10 @@ class ParameterProgram:
         overridden = np.zeros(self.n_p, bool)
         for name, value in given.items():
             ids, _ = self.flat.names.find(name, parameter=True)
+            if self.flat.evaluated[ids].any():
+                from .bounds import evaluated_text
+
+                raise DeclarationError(evaluated_text(self.flat, ids.ravel()))
             overridden[ids] = True
             values = _put(values, ids.ravel(), xp.ravel(xp.broadcast_to(xp.asarray(value, float), ids.shape)), xp)
         return self.completed(values, overridden, xp)

@@ -43,6 +43,7 @@ class Reduced:
         sign: ``variable = sign * representative``; 0 for variables that are always zero.
         unknown: mask of the variables (and derivatives) that remain.
         redundant: alias equations that close a cycle.
+        rules: derivatives that are known, over representatives.
     """
 
     flat: FlatModel
@@ -51,6 +52,7 @@ class Reduced:
     sign: Ints
     unknown: Bools
     redundant: list[Redundant]
+    rules: list[Family]
 
 
 @dataclass(slots=True)
@@ -98,7 +100,8 @@ def eliminate_aliases(flat: FlatModel) -> Reduced:
     redundant = [_redundant(flat, edges, int(e), closing) for e in closing]
     families = merge([*families, *_kept(edges, np.asarray(sets.kept_pairs))])
     unknown = (representative == np.arange(flat.n_total)) & (sign != 0)
-    return Reduced(flat, families, representative, sign, unknown, redundant)
+    rules = specialize(flat.rules, representative, sign)
+    return Reduced(flat, families, representative, sign, unknown, redundant, rules)
 
 
 def _sets(n: int, edges: _Edges, keep: Bools | None, rank: Ints | None) -> tuple[AliasSets, Ints]:

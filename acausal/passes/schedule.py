@@ -10,16 +10,18 @@ import numpy as np
 from ..dae.strong_components import block_lower_triangular
 from ..dae.tearing import tear
 from ..language.flat_model import Family
-from ..language.template import Ints
+from ..language.template import Floats, Ints
 from ..symbolic.differentiate import partial
 from ..symbolic.expr import ZERO, Expr, add, div, mul, neg, par, var
 from ..symbolic.isolate import Isolated, Solvability, isolate
-from ..symbolic.traverse import contains, substitute
+from ..symbolic.traverse import contains, evaluate, substitute
 from .states import Selected
 from .structure import IndexReduced
 
 SYMBOLIC = 3
 """Linear systems of up to this many tearing variables are solved symbolically (Cramer's rule)."""
+ZERO_PIVOT = 1e-14
+"""A coefficient of parameters that is smaller than this counts as zero."""
 DENSE = 60
 """Linear systems of up to this many tearing variables are solved inside the right-hand side; larger ones become
 algebraic unknowns of the solver, whose sparse matrix then solves them."""
@@ -95,8 +97,8 @@ class Schedule:
     block_sizes: dict[int, int] = field(default_factory=dict[int, int])
 
 
-def make_schedule(selected: Selected) -> Schedule:
-    """Sort into blocks, tear, group."""
+def make_schedule(selected: Selected, parameters: Floats) -> Schedule:
+    """Sort into blocks, tear, group; `parameters` are the default values (a pivot that is zero there is none)."""
     reduced = selected.reduced
     rows = np.flatnonzero(selected.assignment >= 0)
     is_unknown = reduced.unknown.copy()
@@ -107,7 +109,7 @@ def make_schedule(selected: Selected) -> Schedule:
     size = np.diff(blocks.ptr)
     single = blocks.ptr[:-1][size == 1]
     groups = _singles(reduced, rows[blocks.rows[single]], selected.assignment, np.asarray(blocks.level)[size == 1])
-    builder = _BlockBuilder(reduced, selected.assignment)
+    builder = _BlockBuilder(reduced, selected.assignment, parameters)
     for b in np.flatnonzero(size > 1):
         members = rows[blocks.rows[blocks.ptr[b] : blocks.ptr[b + 1]]]
         builder.add(members, int(blocks.level[b]))
@@ -174,8 +176,9 @@ def _single_kernel(residual: Expr, slot: int, others: list[int]) -> Kernel:
 class _BlockBuilder:
     """Collects simultaneous blocks and groups those of equal shape."""
 
-    def __init__(self, reduced: IndexReduced, assignment: Ints) -> None:
+    def __init__(self, reduced: IndexReduced, assignment: Ints, defaults: Floats) -> None:
         self.reduced = reduced
+        self.defaults = defaults
         self.assignment = assignment
         self.kernels: dict[Any, Kernel] = {}
         self.collected: dict[Any, list[tuple[list[int], list[int], Ints]]] = {}
@@ -197,9 +200,10 @@ class _BlockBuilder:
             )
             pars = tuple(parameters.setdefault(p, len(parameters)) for p in family.par_rows[k].tolist())
             shape.append((family.residual, slots, pars))
-        signature = tuple((id(residual), slots, pars) for residual, slots, pars in shape)
+        values = self.defaults[list(parameters)]
+        signature = (*((id(residual), slots, pars) for residual, slots, pars in shape), tuple((values == 0).tolist()))
         if signature not in self.kernels:
-            self.kernels[signature] = self._kernel(shape, len(unknowns), self._preference(unknowns))
+            self.kernels[signature] = self._kernel(shape, len(unknowns), self._preference(unknowns), values)
         columns = [*unknowns, *externals]
         self.collected.setdefault((level, signature), []).append((columns, list(parameters), members))
 
@@ -217,7 +221,7 @@ class _BlockBuilder:
             out.append(Group(self.kernels[signature], level, var_rows, par_rows, np.stack([b[2] for b in blocks])))
         return out
 
-    def _kernel(self, shape: list[Any], m: int, preference: list[float]) -> Kernel:
+    def _kernel(self, shape: list[Any], m: int, preference: list[float], values: Floats) -> Kernel:
         forms = [
             substitute(
                 residual,
@@ -227,8 +231,12 @@ class _BlockBuilder:
         ]
         local = [[s for s in slots if s < m] for _, slots, _ in shape]
         solved = {(i, u): isolate(forms[i], var(u)) for i in range(m) for u in local[i]}
-        solvable = [[solved[i, u].solvability <= Solvability.PARAMETER for u in local[i]] for i in range(m)]
+        safe = [[solved[i, u].solvability == Solvability.CONSTANT for u in local[i]] for i in range(m)]
+        solvable = [[_pivots(solved[i, u], values) for u in local[i]] for i in range(m)]
         result = tear(local, solvable, m, preference=preference)
+        if safe != solvable:  # without division by parameters, which may become zero, if that costs nothing
+            other = tear(local, safe, m, preference=preference)
+            result = other if len(other.tear_columns) <= len(result.tear_columns) else result
         steps: list[tuple[int, Expr]] = []
         for row, column in result.sequence:
             solution = solved[row, column].solution
@@ -237,6 +245,14 @@ class _BlockBuilder:
         tears = tuple(int(c) for c in result.tear_columns)
         residuals = tuple(forms[int(r)] for r in result.residual_rows)
         return finish_kernel(m, steps, tears, residuals)
+
+
+def _pivots(isolated: Isolated, parameters: Floats) -> bool:
+    """Whether the coefficient is a number, or one of parameters that is not zero at their default values."""
+    if isolated.solvability != Solvability.PARAMETER:
+        return isolated.solvability == Solvability.CONSTANT
+    value = evaluate((isolated.coefficient,), lambda leaf: parameters[leaf.value], np)[0]
+    return not abs(value) < ZERO_PIVOT
 
 
 def finish_kernel(m: int, steps: list[tuple[int, Expr]], tears: tuple[int, ...], residuals: tuple[Expr, ...]) -> Kernel:

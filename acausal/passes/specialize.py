@@ -61,6 +61,20 @@ def _split(family: Family, representative: Ints, sign: Ints) -> list[Family]:
     return parts
 
 
+def without_repetition(family: Family) -> list[tuple[Ints, Family]]:
+    """The family in parts (rows and family) in which no variable has two slots."""
+    rows = family.var_rows
+    ones = np.ones_like(rows)
+    patterns, which = _unique_rows(_first_occurrence(rows, ones)) if rows.size else (rows[:1], np.zeros(len(rows), int))
+    parts: list[tuple[Ints, Family]] = []
+    for p, first in enumerate(patterns):
+        pick = np.flatnonzero(which == p)
+        residual = substitute(family.residual, _mapping(ones[0], first))
+        form, var_rows, par_rows = canonical(residual, rows[pick], family.par_rows[pick])
+        parts.append((pick, Family(form, var_rows, par_rows, family.source[pick], family.ordinal[pick])))
+    return parts
+
+
 def _first_occurrence(rows: Ints, signs: Ints) -> Ints:
     """Per slot, the first slot of the row with the same variable (itself if none)."""
     n, k = rows.shape

@@ -17,11 +17,12 @@ from ..dae.dulmage_mendelsohn import dulmage_mendelsohn
 from ..dae.incidence import Incidence
 from ..dae.matching import maximum_matching, transversal_basis
 from ..dae.strong_components import block_lower_triangular
+from ..language.declarations import STATE_SELECT
 from ..language.flat_model import Bools, Family
 from ..language.template import Ints
 from ..symbolic.differentiate import partial
 from ..symbolic.expr import Expr, var
-from ..symbolic.isolate import Solvability, isolate
+from ..symbolic.isolate import Isolated, Solvability, isolate
 from ..symbolic.traverse import evaluate
 from .structure import IndexReduced
 
@@ -60,11 +61,12 @@ def select_states(reduced: IndexReduced, parameters: np.ndarray) -> Selected:
 def _solve_lower(reduced: IndexReduced, lower: Ints, candidate: Bools, parameters: np.ndarray) -> Ints:
     """Variable that each differentiated equation determines, -1 where no pivot is safe.
 
-    An equation can determine variables of its own block of the highest-derivative system only (Mattsson and Söderlind
-    1993, section 3.1). Where a block leaves no choice, the only variable is taken whatever its pivot: if that one
-    vanishes, the model itself is singular there.
+    An equation determines a variable of its own block of the highest-derivative system (Mattsson and Söderlind 1993,
+    section 3.1). Where a block leaves no choice, the only variable is taken whatever its pivot: if that one vanishes,
+    the model itself is singular there. A variable of another block is taken, with a constant pivot, where those of its
+    own are wanted more as states (joint coordinates, rather than what is computed from them).
     """
-    rows, columns, kind = _edges(reduced, lower)
+    rows, columns, kind = _edges(reduced, lower, parameters)
     row_label, column_label = _top_blocks(reduced)
     use = candidate[columns] & _tight(reduced, lower[rows], columns)
     rows, columns, kind = rows[use], columns[use], kind[use]
@@ -80,11 +82,17 @@ def _solve_lower(reduced: IndexReduced, lower: Ints, candidate: Bools, parameter
     parts = dulmage_mendelsohn(inside, np.asarray(maximum_matching(inside)))
     forced = np.zeros(len(lower), bool)
     forced[parts.square_rows] = True
-    allowed = own & (safe | forced[owner])
+    wish = reduced.flat.select[ids].astype(np.int64)[graph.indices]
+    least = np.full(len(lower), len(STATE_SELECT))
+    np.minimum.at(least, owner[own], wish[own])
+    elsewhere = ~own & safe & (wish < least[owner]) & (least[owner] > STATE_SELECT.index("default"))
+    allowed = own & (safe | forced[owner]) | elsewhere
     order = np.lexsort(_dislike(reduced, ids))
     column = np.asarray(transversal_basis(graph, order, allowed))
     column = _avoid_iteration(graph, column, kinds, allowed, order)
-    matched = np.flatnonzero((column >= 0) & ~forced)
+    moved = np.zeros(len(lower), bool)
+    moved[owner[(graph.indices == column[owner]) & ~own]] = True
+    matched = np.flatnonzero((column >= 0) & (~forced | moved))
     unsafe = _unsafe_blocks(reduced, lower[matched], ids, graph, matched, column, parameters)
     column[matched[unsafe]] = -1
     return np.where(column >= 0, ids[np.maximum(column, 0)] if len(ids) else -1, -1)
@@ -157,7 +165,16 @@ def _dislike(reduced: IndexReduced, ids: Ints) -> tuple[Ints, ...]:
     return -ids, start_given, flat.fixed[ids] == 1, flat.select[ids].astype(np.int64), -order
 
 
-def _edges(reduced: IndexReduced, lower: Ints) -> tuple[Ints, Ints, Ints]:
+def _kinds(found: Isolated, family: Family, rows: Ints, parameters: np.ndarray) -> Ints:
+    """`Solvability` of each row; a coefficient of parameters that is zero at their default values is not safe."""
+    kinds = np.full(len(rows), int(found.solvability))
+    if found.solvability == Solvability.PARAMETER:
+        values = [constant_value(found.coefficient, family, int(row), parameters) for row in rows]
+        kinds[[v is not None and v == 0.0 for v in values]] = Solvability.VARIABLE
+    return kinds
+
+
+def _edges(reduced: IndexReduced, lower: Ints, parameters: np.ndarray) -> tuple[Ints, Ints, Ints]:
     """(position in `lower`, variable, `Solvability`) of every incidence."""
     rows: list[Ints] = []
     columns: list[Ints] = []
@@ -171,7 +188,7 @@ def _edges(reduced: IndexReduced, lower: Ints) -> tuple[Ints, Ints, Ints]:
         for slot in range(family.var_rows.shape[1]):
             columns.append(family.var_rows[local, slot])
             rows.append(mine)
-            kinds.append(np.full(len(mine), int(isolate(family.residual, var(slot)).solvability)))
+            kinds.append(_kinds(isolate(family.residual, var(slot)), family, local, parameters))
     return np.concatenate(rows), np.concatenate(columns), np.concatenate(kinds)
 
 

@@ -17,6 +17,8 @@ from ..symbolic.expr import ONE, ZERO, Expr, par, var
 from ..symbolic.traverse import substitute
 from .aliases import Reduced
 from .diagnose import singular
+from .rules import DerivativeRules, apply_rules, derivative_rules
+from .specialize import without_repetition
 
 
 class Rows:
@@ -126,8 +128,13 @@ def reduce_index(reduced: Reduced) -> IndexReduced:
     rows = Rows(reduced.families)
     graph = rows.incidence(flat.n_total, reduced.unknown)
     active = np.where(reduced.unknown, flat.derivative_of, -1)
+    sources = np.concatenate([np.zeros(0, np.int64), *(f.source for f in reduced.families)])
+    rules = derivative_rules(flat, reduced.rules, graph, sources, reduced.unknown)
+    ordinary = np.setdiff1d(np.arange(len(rows)), rules.rows)
+    part = graph.select(rows=ordinary)
+    extra = rules.extra(part, reduced.unknown) if rules.any else None
     try:
-        result = pantelides(graph, active)
+        result = pantelides(part.select(column_mask=rules.family_of < 0), active, extra)
     except StructurallySingular as error:
         base = _collapsed(flat)
         raise singular(reduced, rows, base, np.unique(base[np.flatnonzero(reduced.unknown)])) from error
@@ -136,13 +143,16 @@ def reduce_index(reduced: Reduced) -> IndexReduced:
     parent = np.concatenate([flat.parent, np.asarray(result.new_columns, np.int64)])
     derivative_of[np.asarray(result.new_columns, np.int64)] = flat.n_total + np.arange(n_new)
     unknown = np.concatenate([reduced.unknown, np.ones(n_new, bool)])
-    families, permutation = _differentiated(reduced, rows, np.asarray(result.new_rows, np.int64), derivative_of)
+    number = np.concatenate([ordinary, len(rows) + np.arange(len(result.new_rows))])  # of the rows of `part`
+    parents = number[np.asarray(result.new_rows, np.int64)]
+    families, permutation = _differentiated(reduced, rows, parents, derivative_of, rules)
     row_derivative = np.full(len(permutation), -1, np.int64)
-    parents = np.asarray(result.new_rows, np.int64)
     row_derivative[permutation[parents]] = permutation[len(rows) + np.arange(len(parents))]
     assignment = np.full(len(permutation), -1, np.int64)
-    assignment[permutation] = np.asarray(result.assignment)
-    order = np.asarray(result.equation_order)
+    assignment[permutation[number]] = np.asarray(result.assignment)
+    assignment[permutation[rules.rows]] = rules.defined
+    order = np.zeros(len(rows), np.int64)
+    order[ordinary] = np.asarray(result.equation_order)
     out = IndexReduced(
         flat, families, unknown, row_derivative, derivative_of, parent, 0, assignment, int((order > 0).sum())
     )
@@ -184,7 +194,7 @@ def _index(reduced: Reduced, equation_order: Ints, derivative_of: Ints, unknown:
 
 
 def _differentiated(
-    reduced: Reduced, rows: Rows, new_rows: Ints, derivative_of: Ints
+    reduced: Reduced, rows: Rows, new_rows: Ints, derivative_of: Ints, rules: DerivativeRules
 ) -> tuple[list[Family], Ints]:
     """Families for the differentiated rows, and the new number of every row."""
     families = list(reduced.families)
@@ -198,18 +208,40 @@ def _differentiated(
         for k in np.unique(parent_family):
             mine = ready[parent_family == k]
             source = families[int(k)].select(local[new_rows[mine]])
-            families.append(differentiate_family(source, derivative_of, reduced.flat))
-            family_of[n + mine] = len(families) - 1
-            local[n + mine] = np.arange(len(mine))
+            for part, derivative in differentiate_family(source, derivative_of, reduced.flat, rules):
+                families.append(derivative)
+                family_of[n + mine[part]] = len(families) - 1
+                local[n + mine[part]] = np.arange(len(part))
         pending = pending[family_of[n + pending] < 0]
     offset = np.concatenate([[0], np.cumsum([f.size for f in families])]).astype(np.int64)
     return families, offset[family_of] + local
 
 
-def differentiate_family(family: Family, derivative_of: Ints, flat: FlatModel) -> Family:
-    """Total time derivative of a family; variables that are constant have no derivative."""
-    k = family.var_rows.shape[1]
-    derivatives = derivative_of[family.var_rows]
+def differentiate_family(
+    family: Family, derivative_of: Ints, flat: FlatModel, rules: DerivativeRules
+) -> list[tuple[Ints, Family]]:
+    """Total time derivative of a family, in parts: rows and their derivatives."""
+    _refuse_inputs(family, flat)
+    out: list[tuple[Ints, Family]] = []
+    for rows, part, known in apply_rules(family, rules):
+        k = part.var_rows.shape[1]
+
+        def tangent(leaf: Expr, k: int = k, known: dict[Expr, Expr] = known) -> Expr:
+            if leaf.op == "var":
+                return known[leaf] if leaf in known else var(k + leaf.value)
+            return ONE if leaf.op == "time" else ZERO
+
+        residual = differentiate((_between_events(part, flat),), tangent)[0]
+        both = np.concatenate([part.var_rows, derivative_of[part.var_rows]], axis=1)
+        form, var_rows, par_rows = canonical(residual, both, part.par_rows)
+        derivative = Family(form, var_rows, par_rows, part.source, part.ordinal)
+        # a rule may bring in a variable that the equation has already
+        out += [(rows[some], one) for some, one in without_repetition(derivative)] if known else [(rows, derivative)]
+    return out
+
+
+def _refuse_inputs(family: Family, flat: FlatModel) -> None:
+    """Inputs from outside have no derivative that is known."""
     held = flat.n_par + len(flat.inputs)
     fed = (family.par_rows >= flat.n_par) & (family.par_rows < held)
     if fed.any():
@@ -220,14 +252,6 @@ def differentiate_family(family: Family, derivative_of: Ints, flat: FlatModel) -
             f"({component or flat.model_name}, {place}), but the derivative of an input from outside is not known: "
             "give the input as a component of the model (a source block), or pass its derivative as an input of its own"
         )
-
-    def tangent(leaf: Expr) -> Expr:
-        return var(k + leaf.value) if leaf.op == "var" else ONE if leaf.op == "time" else ZERO
-
-    residual = differentiate((_between_events(family, flat),), tangent)[0]
-    both = np.concatenate([family.var_rows, derivatives], axis=1)
-    form, var_rows, par_rows = canonical(residual, both, family.par_rows)
-    return Family(form, var_rows, par_rows, family.source, family.ordinal)
 
 
 def _between_events(family: Family, flat: FlatModel) -> Expr:

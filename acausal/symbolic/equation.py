@@ -7,6 +7,9 @@ from typing import Any, NoReturn
 
 from .expr import Expr, as_expr, make
 
+DEFINITION = "definition"
+"""Kind of the equations that define variables with a derivative rule."""
+
 
 @dataclass(frozen=True, slots=True)
 class Origin:
@@ -16,7 +19,7 @@ class Origin:
         class_name: class whose `equations` yielded it.
         file: path of the source file.
         line: line number, 0 when unknown.
-        kind: ``equation``, ``connect``, ``initial``, ``start``, ``derived`` ...
+        kind: ``equation``, ``connect``, ``initial``, ``start``, ``definition`` ...
     """
 
     class_name: str
@@ -32,10 +35,15 @@ class Origin:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Equation:
-    """``lhs == rhs``."""
+    """``lhs == rhs``.
+
+    Attributes:
+        defines: whether it defines variables whose derivatives are given by `derivative_rule`.
+    """
 
     lhs: Expr
     rhs: Expr
+    defines: bool = False
 
     def __bool__(self) -> NoReturn:
         raise TypeError(

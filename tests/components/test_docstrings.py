@@ -15,6 +15,7 @@ from acausal.components import (
     electrical,
     examples,
     hydraulic,
+    multibody,
     planar,
     rotational,
     thermal,
@@ -26,6 +27,7 @@ from .test_library import is_partial, named, public_classes
 PACKAGES: dict[str, ModuleType] = {
     "blocks": blocks, "electrical": electrical, "rotational": rotational, "thermal": thermal,
     "translational": translational, "bondgraph": bondgraph, "planar": planar, "hydraulic": hydraulic,
+    "multibody": multibody,
 }  # fmt: skip
 
 

@@ -9,11 +9,11 @@ import pytest
 
 import acausal as ac
 from acausal import Component
-from acausal.components import blocks, bondgraph, electrical, hydraulic, planar, rotational, thermal, translational
+from acausal.components import blocks, bondgraph, electrical, hydraulic, multibody, planar, rotational, thermal, translational
 
 from .examples import EXAMPLES, simulated
 
-MODULES = (blocks, bondgraph, electrical, hydraulic, planar, rotational, thermal, translational)
+MODULES = (blocks, bondgraph, electrical, hydraulic, multibody, planar, rotational, thermal, translational)
 
 
 def public_classes() -> list[type[Component]]:

@@ -158,6 +158,8 @@ def _parameters(system: System) -> Iterator[FmuVariable]:
             f"{', '.join(f'`{n}`' for n in missing[:5])}. Give one at construction."
         )
     for i, name in enumerate(names):
+        if flat.evaluated[i]:  # built into the equations: nothing to be set
+            continue
         declaration: Any = flat.names.declaration(i, parameter=True)
         free = not program.dependent[i]
         yield FmuVariable(

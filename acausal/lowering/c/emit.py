@@ -100,6 +100,7 @@ class Writer:
         self.tangent_of: dict[int, int | None] = {}
         self.solve_of: dict[tuple[int, bool], int] = {}
         self.alive: list[Expr] = []
+        self.reduced: dict[int, Expr] = {}
 
     # ---- building the graph of statements ---------------------------------------------------------
     def _values(self, roots: Iterable[Expr]) -> None:
@@ -217,7 +218,7 @@ class Writer:
         for i, t in moving:
             rule = _factor(node, i)
             if rule is not None:
-                factors.append((None if rule is ONE else reduce_strength((rule,))[0], t))
+                factors.append((None if rule is ONE else self._reduced(rule), t))
         self._values(f for f, _ in factors if f is not None)
         if not factors:
             self.tangent_of[id(node)] = None
@@ -229,6 +230,12 @@ class Writer:
             task.needs += [(t, None)] + ([] if number_of_factor is None else [(number_of_factor, None)])
         self.tangent_of[id(node)] = len(self.tasks)
         self.tasks.append(task)
+
+    def _reduced(self, rule: Expr) -> Expr:
+        self.alive.append(rule)
+        reduced = reduce_strength((rule,), self.reduced)[0]
+        self.alive.append(reduced)
+        return reduced
 
     # ---- what is behind a condition ---------------------------------------------------------------
     def _guards(self, roots: list[int]) -> None:

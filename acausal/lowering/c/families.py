@@ -78,8 +78,11 @@ def write_kernel(kernel: Kernel, slots: int, driven: frozenset[int]) -> _Kernel:
         for u, leaf in zip(kernel.tears, leaves, strict=True):
             names[var(u)] = leaf
             outputs.append((u, leaf))
+    memo: dict[int, Expr] = {}
+    alive: list[Expr] = []  # what `memo` knows by identity
     for u, expression in kernel.steps:
-        names[var(u)] = reduce_strength((substitute(expression, names),))[0]
+        alive.append(substitute(expression, names))
+        names[var(u)] = reduce_strength(alive[-1:], memo)[0]
         outputs.append((u, names[var(u)]))
     residuals = reduce_strength(substitute(r, names) for r in kernel.residuals)
     moved: dict[int, Expr] = {}

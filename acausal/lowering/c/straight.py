@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from ...language.flat_model import Family
 from ...symbolic.expr import ONE, ZERO, Expr, add, const, make, mul, neg, par, power, var
 from ...symbolic.jacobian import Row, sparse_jacobian
-from ...symbolic.traverse import leaves, postorder, substitute
+from ...symbolic.traverse import leaves, postorder, postorder_missing, substitute
 
 if TYPE_CHECKING:
     from ...passes.schedule import Group
@@ -169,11 +169,16 @@ def family_residuals(straight: Straight, families: Iterable[Family]) -> list[Exp
     return out
 
 
-def reduce_strength(roots: Iterable[Expr]) -> list[Expr]:
-    """Powers with exponents that are multiples of 1/4 as products and square roots; factors 0 and 1 into choices."""
+def reduce_strength(roots: Iterable[Expr], memo: dict[int, Expr] | None = None) -> list[Expr]:
+    """Powers with exponents that are multiples of 1/4 as products and square roots; factors 0 and 1 into choices.
+
+    Args:
+        roots: expressions.
+        memo: what was found by node identity; given, it is extended. The caller keeps the nodes alive.
+    """
     roots = list(roots)
-    memo: dict[int, Expr] = {}
-    for node in postorder(roots):
+    memo = {} if memo is None else memo
+    for node in postorder_missing(roots, memo):
         args = tuple(memo[id(a)] for a in node.args)
         same = all(a is b for a, b in zip(args, node.args, strict=True))
         memo[id(node)] = _cheaper(node if same else make(node.op, args, node.value))

@@ -1,0 +1,183 @@
+"""Frames: where the parts of a mechanism touch, and the algebra of their orientations.
+
+A vector is resolved in a frame: its elements are its projections onto the frame's axes. ``T`` carries elements in the
+world frame to elements in the frame, ``v2 = T v1``, and its rows are the frame's axes; ``w`` is the frame's absolute
+angular velocity, resolved in the frame itself, so that ``dT/dt = -[w x] T``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from acausal import (
+    Connector,
+    Equations,
+    Flow,
+    Matrix,
+    Overdetermined,
+    Potential,
+    Vector,
+    cos,
+    cross,
+    defining,
+    derivative_rule,
+    dot,
+    matrix,
+    norm,
+    sin,
+    vector,
+)
+from acausal.language.vectors import VectorEquation
+
+ZEROS = (0.0, 0.0, 0.0)
+IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+class Orientation(Overdetermined):
+    """Orientation of a frame against the world: twelve quantities of three degrees of freedom.
+
+    Source: Modelica.Mechanics.MultiBody.Frames.Orientation.
+    """
+
+    T: Matrix = Matrix(Potential(unit="1", doc="transformation matrix from the world frame to this frame"))
+    w: Vector = Vector(Potential(unit="rad/s", doc="absolute angular velocity, resolved in this frame"))
+
+    def equations(self) -> Equations:
+        yield derivative_rule(self.T, -(skew(self.w) @ self.T))
+
+    def equality_constraint(self, other: Orientation) -> Vector:
+        """Small angles of the rotation from one to the other about the three axes."""
+        return rotation_residual(self.T, other.T)
+
+
+class Frame(Connector):
+    """Coordinate system fixed to a part, with one cut force and one cut torque.
+
+    Source: Modelica.Mechanics.MultiBody.Interfaces.Frame.
+    """
+
+    r_0: Vector = Vector(Potential(unit="m", state_select="avoid", doc="position of the origin in the world frame"))
+    R: Orientation = Orientation()
+    f: Vector = Vector(Flow(unit="N", doc="cut force, resolved in the frame"))
+    t: Vector = Vector(Flow(unit="N*m", doc="cut torque, resolved in the frame"))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rotation:
+    """An orientation that is computed: matrix `T` and angular velocity `w` of a second frame against a first one."""
+
+    T: Matrix
+    w: Vector
+
+
+AnyRotation = Orientation | Rotation
+
+
+def resolve1(R: AnyRotation, v2: Vector) -> Vector:
+    """Elements in frame 1 of a vector given in frame 2."""
+    return R.T.transpose() @ v2
+
+
+def resolve2(R: AnyRotation, v1: Vector) -> Vector:
+    """Elements in frame 2 of a vector given in frame 1."""
+    return R.T @ v1
+
+
+def resolve_relative(v1: Vector, R1: AnyRotation, R2: AnyRotation) -> Vector:
+    """Elements in frame 2 of a vector given in frame 1, both with their absolute orientations."""
+    return resolve2(R2, resolve1(R1, v1))
+
+
+def absolute_rotation(R1: AnyRotation, R_rel: Rotation) -> Rotation:
+    """Frame 2 from frame 1 and the rotation from frame 1 to frame 2."""
+    return Rotation(R_rel.T @ R1.T, resolve2(R_rel, R1.w) + R_rel.w)
+
+
+def inverse_rotation(R: Rotation) -> Rotation:
+    """The rotation from frame 2 to frame 1."""
+    return Rotation(R.T.transpose(), -resolve1(R, R.w))
+
+
+def relative_rotation(R1: AnyRotation, R2: AnyRotation) -> Rotation:
+    """The rotation from frame 1 to frame 2 of two absolute orientations."""
+    T = R2.T @ R1.T.transpose()
+    return Rotation(T, R2.w - T @ R1.w)
+
+
+def equal(R: Orientation, other: AnyRotation) -> list[VectorEquation]:
+    """Equations by which an orientation is what was computed."""
+    return [defining(R.T == other.T), R.w == other.w]
+
+
+def unit_vector(n: Vector) -> Vector:
+    """Vector of length one in the direction of `n`."""
+    return n / norm(n)
+
+
+def skew(v: Vector) -> Matrix:
+    """Matrix of the vector product, ``skew(v) u = v x u``."""
+    x, y, z = v
+    return matrix((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0))
+
+
+def planar_rotation(e: Vector, phi: Any, w: Any) -> Rotation:
+    """Rotation by `phi` about the axis `e` (of length one), ``T = e e' + (I - e e') cos(phi) - [e x] sin(phi)``."""
+    c, s = cos(phi), sin(phi)
+    outer = matrix(*([a * b for b in e] for a in e))
+    cosines = matrix(*IDENTITY) - outer
+    return Rotation(outer + cosines * c - skew(e) * s, e * w)
+
+
+def axis_rotation(axis: int, phi: Any) -> Matrix:
+    """Rotation by `phi` about coordinate axis 1, 2 or 3."""
+    c, s = cos(phi), sin(phi)
+    if axis == 1:
+        return matrix((1.0, 0.0, 0.0), (0.0, c, s), (0.0, -s, c))
+    if axis == 2:
+        return matrix((c, 0.0, -s), (0.0, 1.0, 0.0), (s, 0.0, c))
+    return matrix((c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0))
+
+
+def axes_rotations(sequence: Sequence[float], angles: Vector, rates: Vector | None = None) -> Rotation:
+    """Rotations one after the other about the (turned) axes numbered in `sequence`, as Cardan or Euler angles are."""
+    first, second, third = (axis_rotation(int(axis), phi) for axis, phi in zip(sequence, angles, strict=True))
+    T = third @ (second @ first)
+    if rates is None:
+        return Rotation(T, vector(*ZEROS))
+    axes = [vector(*(1.0 if i == int(axis) else 0.0 for i in (1, 2, 3))) for axis in sequence]
+    w = axes[2] * rates[2] + third @ (axes[1] * rates[1]) + third @ (second @ (axes[0] * rates[0]))
+    return Rotation(T, w)
+
+
+def from_nxy(n_x: Vector, n_y: Vector) -> Matrix:
+    """Matrix of the frame with x axis along `n_x` and y axis in the plane of `n_x` and `n_y`."""
+    e_x = unit_vector(n_x)
+    e_z = unit_vector(cross(n_x, n_y))
+    return matrix(e_x, cross(e_z, e_x), e_z)
+
+
+def from_quaternion(Q: Vector) -> Matrix:
+    """Matrix of a quaternion (its scalar part comes last), which need not have length one."""
+    a, b, c, d = Q
+    square = dot(Q, Q)
+    rows = (
+        (a * a - b * b - c * c + d * d, 2 * (a * b + c * d), 2 * (a * c - b * d)),
+        (2 * (b * a - c * d), b * b + d * d - a * a - c * c, 2 * (b * c + a * d)),
+        (2 * (c * a + b * d), 2 * (c * b - a * d), c * c + d * d - a * a - b * b),
+    )
+    return matrix(*rows) / square
+
+
+def quaternion_rate(Q: Vector, w: Vector) -> Vector:
+    """Derivative of a quaternion at angular velocity `w`, resolved in the turned frame."""
+    a, b, c, d = Q
+    x, y, z = w
+    return vector(d * x - c * y + b * z, c * x + d * y - a * z, a * y + d * z - b * x, -(a * x + b * y + c * z)) / 2
+
+
+def rotation_residual(T1: Matrix, T2: Matrix) -> Vector:
+    """Zero, all three, where both matrices are the same rotation (to first order the angles between them)."""
+    (_, y1, z1), (x2, y2, _) = T1.rows(), T2.rows()
+    return vector(dot(z1, y2), -dot(z1, x2), dot(y1, x2))
