@@ -9,7 +9,17 @@ import pytest
 
 import acausal as ac
 from acausal import Component
-from acausal.components import blocks, bondgraph, electrical, hydraulic, multibody, planar, rotational, thermal, translational
+from acausal.components import (
+    blocks,
+    bondgraph,
+    electrical,
+    hydraulic,
+    multibody,
+    planar,
+    rotational,
+    thermal,
+    translational,
+)
 
 from .examples import EXAMPLES, simulated
 
