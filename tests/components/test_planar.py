@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
+import jax
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -196,6 +198,60 @@ def test_loop_closed_by_a_constraint() -> None:
     joint, constraint = (simulate(four_bar(last), t) for last in (planar.Revolute(), planar.RevoluteConstraint()))
     assert_allclose(constraint["a.phi"], joint["a.phi"], atol=1e-7)
     assert_allclose(constraint["right.frame.fx"], joint["right.frame.fx"], atol=1e-6)
+
+
+def test_gradient_through_a_loop() -> None:
+    """Of the crank's angle, by the length of the coupler: through start, constraints and projections."""
+    system = ac.compile(four_bar(planar.Revolute()))
+
+    def angle(length: Any) -> Any:
+        return system.simulate(2.0, parameters={"coupler.r_x": length}, saveat=2, rtol=1e-9, engine="native")["a.phi"][
+            -1
+        ]
+
+    step = 1e-4
+    difference = float(angle(2.0 + step) - angle(2.0 - step)) / (2 * step)
+    assert_allclose(float(jax.grad(angle)(2.0)), difference, rtol=1e-5)
+
+
+def test_joints_drive_and_are_driven_through_their_flanges() -> None:
+    """Spring and damper of one-dimensional mechanics on a hinge and a guide: two damped oscillators."""
+    model = assemble(
+        "wall.frame - hinge.frame_a - guide.frame_a", "hinge.frame_b - disc.frame_a", "guide.frame_b - slider.frame_a",
+        "hinge.support - torsion.flange_a", "torsion.flange_b - hinge.flange_a", "guide.support - buffer.flange_a",
+        "buffer.flange_b - guide.flange_a", planarWorld=inner(planar.PlanarWorld()), wall=planar.Fixed(),
+        hinge=planar.Revolute(useFlange=True, phi=start(0.5, fixed=True), w=start(0.0, fixed=True)),
+        guide=planar.Prismatic(useFlange=True, s=start(1.3, fixed=True), v=start(0.0, fixed=True)),
+        disc=planar.Body(m=1.0, I=0.5), slider=planar.PointMass(m=0.5), torsion=rotational.SpringDamper(c=8.0, d=0.4),
+        buffer=translational.SpringDamper(c=8.0, d=0.4, s_rel0=1.0),
+    )  # fmt: skip
+    t = np.linspace(0.0, 3.0, 31)
+    solution = simulate(model, t)
+    frequency = np.sqrt(16.0 - 0.4**2)
+    wave = np.exp(-0.4 * t) * (np.cos(frequency * t) + 0.4 / frequency * np.sin(frequency * t))
+    assert_allclose(solution["hinge.phi"], 0.5 * wave, atol=1e-8)
+    assert_allclose(solution["guide.s"], 1.0 + 0.3 * wave, atol=1e-8)
+
+
+def test_line_force_of_one_dimensional_parts() -> None:
+    """A one-dimensional spring and damper between the flanges of a line is a spring and damper in the plane."""
+
+    def hung(element: Component, *more: str, **parts: Component) -> ac.Solution:
+        model = assemble(
+            "wall.frame - element.frame_a", "element.frame_b - bob.frame_a", *more, element=element,
+            planarWorld=inner(planar.PlanarWorld()), wall=planar.Fixed(), bob=planar.Body(
+                m=2.0, r_x=start(0.8, fixed=True), r_y=start(-0.6, fixed=True), v_x=start(0.0, fixed=True),
+                v_y=start(1.0, fixed=True), phi=start(0.0, fixed=True), w=start(0.0, fixed=True)), **parts,
+        )  # fmt: skip
+        return simulate(model, np.linspace(0.0, 2.0, 21))
+
+    direct = hung(planar.SpringDamper(c=50.0, d=1.5, s_unstretched=0.9))
+    line = hung(
+        planar.LineForce(useFlange_a=True), "element.flange_a - damper.flange_a", "damper.flange_b - element.flange_b",
+        damper=translational.SpringDamper(c=50.0, d=1.5, s_rel0=0.9),
+    )  # fmt: skip
+    for name in ("bob.r_x", "bob.r_y", "wall.frame.fx", "wall.frame.fy"):
+        assert_allclose(line[name], direct[name], atol=1e-7)
 
 
 def test_springs_keep_momentum_and_angular_momentum() -> None:
