@@ -16,6 +16,7 @@ from acausal.errors import SimulationError
 from acausal.lowering.hybrid import Hybrid, Piece, Point
 from acausal.lowering.initial import EASE_ALGEBRAIC, InitialProblem
 from acausal.lowering.initial_numeric import conditions_of, gauss_newton_part
+from acausal.lowering.levels import levels
 
 from .native_library import Floats
 
@@ -101,6 +102,8 @@ class EventIteration:
         self.moves: list[Move] = []
         self.forced: list[int] = []
         self.noise: Floats = np.zeros(hybrid.roots.count)
+        self.levels = levels(problem.lowered)
+        self.moving = [bool(hybrid.moves(piece.rows.var_rows).any()) for piece in hybrid.pres]
         self.follow = [hybrid.follows(piece) for piece in hybrid.relations]
 
     # ---- pieces -----------------------------------------------------------------------------------
@@ -140,14 +143,15 @@ class EventIteration:
         p[slots] = new
         return slots[different].tolist()
 
-    def _lefts(self, point: Point) -> list[Any]:
-        return [piece.values(point)[0] for piece in self.hybrid.pres]
-
-    def _put_lefts(self, p: Floats, lefts: list[Any]) -> bool:
-        changed = False
-        for piece, left in zip(self.hybrid.pres, lefts, strict=True):
-            same = (p[piece.slots] == left) | (np.isnan(p[piece.slots]) & np.isnan(left))
-            changed = changed or not same.all()
+    def _put_lefts(self, p: Floats, point: Point) -> list[int]:
+        """Put left limits into p; the slots that change, those of continuous quantities by more than rounding."""
+        changed: list[int] = []
+        for piece, moves in zip(self.hybrid.pres, self.moving, strict=True):
+            left, old = piece.values(point)[0], p[piece.slots]
+            same = (old == left) | (np.isnan(old) & np.isnan(left))
+            if moves:
+                same |= np.abs(left - old) <= NOISE * self._scale(piece, point)
+            changed += piece.slots[~same].tolist()
             p[piece.slots] = left
         return changed
 
@@ -177,7 +181,7 @@ class EventIteration:
         z = self._settled(t, z, p)
         self.moves = [Move(t, z, p.copy(), [], z)]
         left = Point(t, self.equations.values(t, z, p), p)
-        self._put_lefts(p, self._lefts(left))
+        self._put_lefts(p, left)
         self._sample(p, samples or [], 1.0)
         changed = self._flip(p, left, roots)
         outcome = self._iterate(t, z, p)
@@ -208,7 +212,7 @@ class EventIteration:
 
     def _iterate(self, t: float, z: Floats, p: Floats) -> Outcome:
         """To the fixed point: no trigger is left, and left limits are values."""
-        seen: list[int] = []
+        seen, active, moved = list[int](), list[int](), list[int]()
         ended: str | None = None
         for _ in range(TURNS):
             z, values = self._consistent(t, z, p)
@@ -220,18 +224,16 @@ class EventIteration:
             if active:
                 ended = ended or self._ends(point)
             z = self._reinitialized(t, z, p, point)
-            if not active and not self._put_lefts(p, self._lefts(point)):
-                self.before = now
+            moved = self._put_lefts(p, point)
+            self.before = now
+            if not active and not moved:
                 self._rounding(values)
                 return Outcome(z, p, values, ended, list(dict.fromkeys(seen)))
-            if active:
-                self._put_lefts(p, self._lefts(point))
-            self.before = now
             for piece in self.hybrid.triggers:
                 p[piece.slots] = 0.0
         raise SimulationError(
             f"At t = {t:.12g} s the events do not come to an end: each change brings about another. Involved are:\n"
-            + self._names(seen)
+            + self._names([*active, *moved] or seen)
         )
 
     def _consistent(self, t: float, z: Floats, p: Floats) -> tuple[Floats, Floats]:
@@ -344,12 +346,8 @@ class EventIteration:
         return z
 
     def _may_follow(self, ids: Any) -> Any:
-        """States of the same level: velocities may jump with velocities, but positions stay."""
-        low = self.problem.lowered
-        rates = np.isin(low.schedule.states, low.dx_ids)
-        if np.isin(ids, low.schedule.states[~rates]).any() or not rates.any():
-            return np.ones(low.n_x, bool)
-        return rates
+        """States that may jump with these variables: velocities with velocities, while positions stay."""
+        return self.levels[self.problem.lowered.schedule.states] <= self.levels[ids].max()
 
     def _moved(self, t: float, z: Floats, p: Floats, ids: Any, wanted: Any, free: Any) -> Floats:
         """Consistent values near z with variables `ids` at the wanted values."""
@@ -471,7 +469,7 @@ class EventIteration:
         seen = self._active(p)
         ended = self._ends(point) if seen else None
         z = self._reinitialized(t0, z, p, point)
-        self._put_lefts(p, self._lefts(point))
+        self._put_lefts(p, point)
         for piece in hybrid.triggers:
             p[piece.slots] = 0.0
         if slots.initial >= 0:

@@ -54,6 +54,10 @@ Integrate = Callable[[float, float, Floats, Floats, Floats, float, bool, int], S
 """(t, t_stop, z, p, output times, first step, end open, steps left) to a segment."""
 
 
+AtEvent = Callable[[float, Segment | None, Outcome, list[int]], None]
+"""Told the time of an event, the segment before (None at the end), what followed, and the samples that were due."""
+
+
 @dataclass(eq=False)
 class HybridRun:
     """Trajectories with events.
@@ -64,6 +68,8 @@ class HybridRun:
         events: in order.
         code, t_end, z_end, p_end, counts: as of a run without events; the code of an end by `terminate` is 0.
         ended: message of `terminate`.
+        save: times of the rows.
+        closed: whether the last row is what follows from `terminal()`.
     """
 
     z: Floats
@@ -76,6 +82,7 @@ class HybridRun:
     counts: dict[str, int]
     ended: str | None
     save: Floats
+    closed: bool
 
 
 @dataclass(eq=False)
@@ -133,7 +140,7 @@ class _Record:
 
 def run_hybrid(
     iteration: EventIteration, start: Outcome, t0: float, t1: float, save: Floats, integrate: Integrate,
-    *, first_step: float, max_steps: int, at_event: Callable[[float, Segment, Outcome, list[int]], None] | None = None,
+    *, first_step: float, max_steps: int, at_event: AtEvent | None = None,
 ) -> HybridRun:  # fmt: skip
     """Integrate from event to event.
 
@@ -145,7 +152,7 @@ def run_hybrid(
         integrate: integrates to the next event at most.
         first_step: first step [s]; 0 to estimate one.
         max_steps: most steps.
-        at_event: told the time, the segment before, what followed, and the samples that were due.
+        at_event: told of each event, and of the end.
 
     Raises:
         SimulationError: events chatter or accumulate, an assertion fails, an event has no consistent outcome.
@@ -182,20 +189,24 @@ def run_hybrid(
         turned.event(t, (z_end, p), outcome, segment.switched if happened else None)
         z, p, ended, step, code = outcome.z, outcome.p, outcome.ended, segment.step, 0
         z_end = z
+    closed = False
     if slots.terminal >= 0 and ended is None and code == 0:
         outcome = iteration.event(t, z_end, p, None, [slots.terminal])
+        if at_event is not None:
+            at_event(t, None, outcome, [slots.terminal])
         p, z_end = outcome.p, outcome.z
-        if saved and save[saved - 1] == t:
-            record.z[-1] = np.concatenate([record.z[-1][:-1], z_end[None]])
+        closed = bool(saved and save[saved - 1] == t)
     found = np.concatenate(record.z) if record.z else np.zeros((0, len(start.z)))
     modes = np.concatenate(record.slots) if record.slots else np.zeros((0, slots.count))
+    if closed:  # the end is as `terminal()` has left it
+        found[-1], modes[-1] = z_end, p[hybrid.slots]
     if ended is not None and (not saved or save[saved - 1] < t):  # the end itself is part of the result
         found, modes = np.concatenate([found, z_end[None]]), np.concatenate([modes, p[None, hybrid.slots]])
         save = np.concatenate([save[:saved], [t]])
     else:
         save = save[:saved]
     counts = {name: record.counts.get(name, 0) for name in ("steps", "accepted", "rejected", "pivoted")}
-    return HybridRun(found, modes, record.events, code, t, z_end, p, counts, ended, save)
+    return HybridRun(found, modes, record.events, code, t, z_end, p, counts, ended, save, closed)
 
 
 def warn(message: str) -> None:

@@ -280,7 +280,7 @@ class NativeModel:
             return run
 
         def at_event(t: float, segment: Any, after: Outcome, samples: list[int]) -> None:
-            roots = segment.switched if segment.code else None
+            roots = segment.switched if segment is not None and segment.code else None
             moving[:] = tangents.event(iteration.moves, after.p, moving[0], moving[1], roots, samples)
 
         run = run_hybrid(
@@ -288,9 +288,9 @@ class NativeModel:
             at_event=at_event,
         )  # fmt: skip
         dz = np.concatenate(found)
-        if len(dz) < len(run.z):  # the end itself, where `terminate` ended the run
-            last = np.concatenate([moving[0], moving[1][iteration.hybrid.slots]])
-            dz = np.concatenate([dz, last[None]])
+        last = np.concatenate([moving[0], moving[1][iteration.hybrid.slots]])[None]
+        if len(dz) < len(run.z) or run.closed:  # the end itself, where `terminate` or `terminal()` have changed it
+            dz = np.concatenate([dz[: len(run.z) - 1], last])
         return run, dz, moving[1]
 
     def _start_tangent(

@@ -11,6 +11,7 @@ import numpy as np
 from ...language.flat_model import Family
 from ...lowering.c.text import array
 from ...lowering.hybrid import Hybrid, Piece
+from ...lowering.levels import levels
 from ...symbolic.expr import Expr
 from .variables import ExportError
 
@@ -49,7 +50,6 @@ def event_tables(system: System) -> list[str]:
     hybrid, low = system.hybrid, system.lowered
     slots = system.stages.flat.slots
     states = low.schedule.states
-    rates = np.isin(states, low.dx_ids).astype(int)
     sizes = dict.fromkeys(("FLOORS", "PRES", "CONDITIONS", "REINITS", "ASSERTS", "ENDS", "SAMPLES"), 0)
     numbers: dict[str, list[int]] = {
         name: [] for name in (
@@ -87,7 +87,7 @@ def event_tables(system: System) -> list[str]:
         f"#define FMU_TERMINAL ({slots.terminal})", *(f"#define FMU_{name} {n}" for name, n in sizes.items()),
         *(array("int", f"fmu_{name}", values) for name, values in numbers.items()),
         array("double", "fmu_root_nominal", nominal), array("double", "fmu_root_scale", _largest(numbers, nominal)),
-        array("unsigned char", "fmu_is_rate", rates.tolist()),
+        array("int", "fmu_level", levels(low)[states].tolist()),
         array("unsigned char", "fmu_is_mode", [int(kind == "relation") for kind in slots.kinds]),
         *(_texts(f"fmu_{name}", values) for name, values in texts.items()),
     ]  # fmt: skip

@@ -42,14 +42,15 @@ static int fmu_holds(const fmu_instance *f, int root) {
 }
 
 /* States and algebraic unknowns near the present ones that satisfy the equations and the retained constraints; states of
-   the mask stay, and so do all states where there is none, or where only velocities may jump. */
-static int fmu_move(fmu_instance *f, const unsigned char *stays, int velocities_only) {
+   the mask stay, and so do all states where there is none, and those above a level (velocities may jump while positions
+   stay). */
+static int fmu_move(fmu_instance *f, const unsigned char *stays, int level) {
     ac_work *w = fmu_prepare(f);
     ac_initial *a = &f->initial;
     double ease[AC_N + 1];
     for (int j = 0; j < AC_N; j++) {
         ease[j] = j < AC_NX ? ac_nominal[j] : 1e4 * ac_nominal[j];
-        a->moves[j] = j >= AC_NX || (stays && !stays[j] && (!velocities_only || fmu_is_rate[j]));
+        a->moves[j] = j >= AC_NX || (stays && !stays[j] && fmu_level[j] <= level);
     }
     const ac_given given = {fmu_fixed, ease, f->wanted, 0};
     memcpy(a->found, f->s.z, sizeof a->found);
@@ -246,15 +247,15 @@ static int fmu_assert(fmu_instance *f) {
 /* States with the values that reinit gives; those that depend on them follow by the least change. */
 static int fmu_reinitialize(fmu_instance *f) {
     unsigned char stays[AC_N + 1] = {0};
-    int any = 0, only_rates = 1;
+    int any = 0, level = 0;
     for (int k = 0; k < FMU_REINITS; k++) {
         if (f->events[FMU_AT_REINITS + 2 * k] == 0.0) continue;
         const int i = fmu_reinit_state[k];
         f->s.z[i] = fmu_reinit_sign[k] * f->events[FMU_AT_REINITS + 2 * k + 1];
         stays[i] = 1, any = 1;
-        only_rates &= fmu_is_rate[i];
+        if (fmu_level[i] > level) level = fmu_level[i];
     }
-    return any && AC_NG > 0 ? fmu_move(f, stays, only_rates) : FMU_OK;
+    return any && AC_NG > 0 ? fmu_move(f, stays, level) : FMU_OK;
 }
 
 static void fmu_end(fmu_instance *f) {

@@ -1,0 +1,167 @@
+"""Derivatives through the times of events, with respect to parameters and start values, against finite differences and
+closed forms."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import acausal as ac
+from acausal import Component, Discrete, Equations, Parameter, Variable, der, pre, reinit, sample, when, where
+
+from .benchmarks import BouncingBall, FullWave, StickSlip
+from .constrained import Wall
+
+
+class Thermostat(Component):
+    """Two thresholds, with the time at which it last switched."""
+
+    T: Variable = Variable(start=15.0, fixed=True)
+    low: Parameter = Parameter(18.0)
+    high: Parameter = Parameter(22.0)
+    power: Parameter = Parameter(2.0)
+    on: Discrete = Discrete(start=1)
+    last: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield der(self.T) == where(self.on > 0.5, self.power, 0.0) - 0.1 * (self.T - 10.0)
+        yield when(self.T > self.high, {self.on: 0, self.last: ac.time}).elsewhen(
+            self.T < self.low, {self.on: 1, self.last: ac.time}
+        )
+
+
+class Sampled(Component):
+    """A sampled controller whose interval and first time are parameters."""
+
+    x: Variable = Variable(start=1.0, fixed=True)
+    u: Discrete = Discrete(start=0.0)
+    K: Parameter = Parameter(1.5)
+    T: Parameter = Parameter(0.3)
+    first: Parameter = Parameter(0.1)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.u - self.x
+        yield when(sample(self.first, self.T), {self.u: -self.K * self.x})
+
+
+class Mixed(Component):
+    """An algebraic unknown of a nonlinear equation, a condition on it, a new state that depends on it, and time."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    y: Variable = Variable(start=0.1)
+    n: Discrete = Discrete(start=0)
+    a: Parameter = Parameter(1.2)
+    b: Parameter = Parameter(0.4)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.a - 0.2 * self.x * where(self.y > self.b / 2, self.y, 0.5)
+        yield self.y + self.y**3 == self.x + 0.1 * ac.sin(3 * ac.time)
+        yield when(self.y > self.b, reinit(self.x, -0.5 * self.a * pre(self.y)), {self.n: pre(self.n) + 1})
+
+
+@dataclass(frozen=True)
+class Case:
+    """A model, values to differentiate by, a variable, and the end of the run."""
+
+    model: Callable[[], Component]
+    parameters: dict[str, float]
+    initial: dict[str, float]
+    seen: tuple[str, ...]
+    t1: float
+
+
+CASES = {
+    "ball": Case(BouncingBall, {"e": 0.7, "g": 9.81}, {"h": 1.0, "v": 0.3}, ("h", "v", "last"), 1.7),
+    "stick_slip": Case(StickSlip, {"friction.peak": 1.6, "spring.c": 8.0, "mass.m": 1.3, "v_belt": 0.12},
+                       {"mass.s": 0.01}, ("mass.s", "mass.v"), 4.0),
+    "full_wave": Case(FullWave, {"source.V": 11.0, "source.f": 1.1, "load.R": 9.0, "d1.Vknee": 0.3},
+                      {"capacitor.v": 2.0}, ("capacitor.v", "d2.v"), 1.6),
+    "thermostat": Case(Thermostat, {"low": 18.2, "high": 21.5, "power": 2.1}, {"T": 14.0}, ("T", "last"), 12.0),
+    "sampled": Case(Sampled, {"K": 1.4, "T": 0.31, "first": 0.12}, {"x": 0.9}, ("x", "u"), 1.5),
+    "mixed": Case(Mixed, {"a": 1.3, "b": 0.45}, {"x": 0.05}, ("x", "y"), 3.0),
+    "wall": Case(Wall, {"L": 1.1, "e": 0.8}, {"x": 0.75}, ("x", "vx", "vy"), 1.6),
+}  # fmt: skip
+
+
+def values_of(case: Case) -> Callable[[jax.Array], jax.Array]:
+    """Values of what is seen half way and at the end, as a function of all parameters and start values."""
+    system = ac.compile(case.model())
+    n = len(case.parameters)
+
+    def values(x: jax.Array) -> jax.Array:
+        parameters = dict(zip(case.parameters, x[:n], strict=True))
+        initial = dict(zip(case.initial, x[n:], strict=True))
+        solution = system.simulate(
+            case.t1, parameters=parameters, initial=initial, engine="native", rtol=1e-11,
+            saveat=np.array([0.55 * case.t1, case.t1]),
+        )  # fmt: skip
+        return jnp.concatenate([jnp.asarray(solution[name]) for name in case.seen])
+
+    return values
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_derivatives_through_events(name: str) -> None:
+    case = CASES[name]
+    values = values_of(case)
+    x = jnp.array([*case.parameters.values(), *case.initial.values()])
+    found = np.asarray(jax.jacfwd(values)(x))
+    assert np.abs(found).max() > 0.1
+    for k in range(len(x)):
+        step = 1e-5 * max(abs(float(x[k])), 0.1)
+        difference = (values(x.at[k].add(step)) - values(x.at[k].add(-step))) / (2 * step)
+        assert_allclose(found[:, k], difference, rtol=2e-5, atol=2e-6 * max(1.0, np.abs(difference).max()))
+
+
+def test_forward_and_reverse_agree() -> None:
+    case = CASES["ball"]
+    values = values_of(case)
+    x = jnp.array([*case.parameters.values(), *case.initial.values()])
+    forward, reverse = jax.jacfwd(values)(x), jax.jacrev(values)(x)
+    assert_allclose(reverse, forward, rtol=1e-9, atol=1e-12)
+    batch = jax.vmap(values)(jnp.stack([x, 1.01 * x]))
+    assert_allclose(batch[1], values(1.01 * x), rtol=1e-9)
+
+
+def test_time_of_the_bounces_in_closed_form() -> None:
+    """``t_2 = sqrt(2 h/g) (1 + 2 e)``: derivatives with respect to h, g and e."""
+    system = ac.compile(BouncingBall())
+
+    def second(h: jax.Array, g: jax.Array, e: jax.Array) -> jax.Array:
+        run = system.simulate(1.3, parameters={"g": g, "e": e}, initial={"h": h}, engine="native", rtol=1e-11, saveat=2)
+        return jnp.asarray(run["last"])[-1]
+
+    found = jax.grad(second, argnums=(0, 1, 2))(1.0, 9.81, 0.7)
+    fall = np.sqrt(2 / 9.81)
+    assert_allclose(found, [fall * 2.4 / 2, -fall * 2.4 / 2 / 9.81, 2 * fall], rtol=1e-9)
+
+
+def test_the_end_of_a_run_that_ends_itself() -> None:
+    """What `terminal()` writes has derivatives, too."""
+
+    class Ends(Component):
+        x: Variable = Variable(start=0.0, fixed=True)
+        rate: Parameter = Parameter(2.0)
+        last: Discrete = Discrete(start=0)
+
+        def equations(self) -> Equations:
+            yield der(self.x) == self.rate
+            yield when(ac.terminal(), {self.last: self.x**2})
+
+    def last(rate: jax.Array) -> jax.Array:
+        run = ac.compile(Ends()).simulate(0.5, parameters={"rate": rate}, engine="native", saveat=2)
+        return jnp.asarray(run["last"])[-1]
+
+    assert_allclose(jax.grad(last)(2.0), 2 * 2.0 * 0.25, rtol=1e-9)
+
+
+def test_the_diffrax_engine_says_who_does() -> None:
+    system = ac.compile(BouncingBall())
+    with pytest.raises(ac.SimulationError, match="does not differentiate runs with events; the native engine does"):
+        jax.grad(lambda e: system.simulate(1.0, parameters={"e": e}, engine="diffrax")["h"][-1])(0.7)
