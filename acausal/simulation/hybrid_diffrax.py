@@ -22,6 +22,7 @@ from acausal.lowering.numeric import NumericRun, is_concrete
 
 from . import simulate as plain
 from .conditions import sides
+from .controller import ROUNDING
 from .engines import all_signals, output_times
 from .event_iteration import EventIteration
 from .failure import explain
@@ -123,9 +124,9 @@ def simulate_events(
     def integrate(
         t: float, stop: float, z: Floats, p: Floats, remaining: Floats, step: float, end_open: bool, steps: int
     ) -> Stretch:
-        if stop <= t:
-            n = 0 if end_open else int((remaining <= t).sum())
-            return Stretch(np.tile(z, (n, 1)), 0, n, t, z, step, None, {})
+        if stop - t <= ROUNDING * abs(t):  # between an event and the end there is no room for a step
+            n = 0 if end_open else int((remaining <= stop).sum())
+            return Stretch(np.tile(z, (n, 1)), 0, n, max(t, stop), z, step, None, {})
         times = np.full(len(save), stop)
         times[: len(remaining)] = np.clip(remaining, t, stop)
         slack, shortest = jnp.asarray(_slack(iteration, equations, t, z, p)), jnp.asarray(NARROWEST * (stop - t))
