@@ -312,3 +312,30 @@ def test_saturation_is_not_singular() -> None:
             yield ac.where(self.y > 1, self.y, 0.1 * self.x) + 0.5 * self.x == 3
 
     assert ac.compile(Saturated()).report().unknowns == 2
+
+
+def test_a_dependence_behind_exponentials_is_found() -> None:
+    """Ring modulator without the small capacitors: the currents of four diodes add up to nothing (index 2).
+
+    Source: Mazzia and Magherini 2008, Test Set for IVP Solvers, Ring modulator, Cs = 0. The exponentials are so large
+    at arbitrary values that a rank in floating-point numbers says nothing.
+    """
+
+    class Diodes(Component):
+        a: Variable = Variable(start=0.0, fixed=True)
+        b: Variable = Variable(start=0.0)
+        u: Variable = Variable()
+        v: Variable = Variable()
+
+        def equations(self) -> Equations:
+            forward = 1e-9 * (ac.exp(400 * (self.u + 2 * ac.sin(1e4 * ac.time))) - 1)
+            backward = 1e-9 * (ac.exp(-400 * (self.v - ac.cos(3e3 * ac.time))) - 1)
+            yield 1e-3 * der(self.a) == ac.sin(ac.time) - self.u - self.a
+            yield 1e-3 * der(self.b) == self.v - 2 * self.b
+            yield self.a + forward == backward
+            yield self.b + forward == backward + 0.25 * self.a
+
+    system = ac.compile(Diodes())
+    assert system.report().structural_index == 2
+    assert len(system.states) == 1
+    assert system.report().invariants == 0

@@ -33,8 +33,8 @@ problems = _problems()
 
 # absolute tolerance where the solution is far smaller than 1
 ATOL: dict[str, float] = {"robertson_dae": 1e-14}
-# the problem's note: its test set compares the positions only, the accelerations of the reference hold fewer digits
-POSITIONS: dict[str, int] = {"slider_crank": 7}
+# positions (and velocities) are compared only: the accelerations and multipliers of the reference hold fewer digits
+POSITIONS: dict[str, int] = {"slider_crank": 7, "andrews_squeezer": 14}
 
 
 @pytest.mark.parametrize("name", problems.names())
