@@ -26,6 +26,7 @@ from .language.component import Equations as Equations
 from .language.component import conditional as conditional
 from .language.component import inner as inner
 from .language.component import outer as outer
+from .language.component import structural as structural
 from .language.connections import connect as connect
 from .language.declarations import Discrete as Discrete
 from .language.declarations import Flow as Flow

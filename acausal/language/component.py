@@ -57,8 +57,13 @@ class Component:
         modifications = by_element(type(self), modifications)
         for name, value in modifications.items():
             modifications[name] = checked(type(self), name, value)
-        self.__dict__["_mods"] = modifications
+        self.__dict__["_mods"] = {**self._implied(modifications), **modifications}
         self.__dict__["_path"] = ()
+
+    @classmethod
+    def _implied(cls, modifications: Mapping[str, Any]) -> dict[str, Any]:
+        """Structural parameters that follow from modifications, where these do not give them (for subclasses)."""
+        return {}
 
     def equations(self) -> Equations:
         """The component's equations and connections; a subclass yields from ``super().equations()`` first."""
@@ -197,6 +202,58 @@ class Conditional:
         self.condition = condition
 
 
+class StructuralReference:
+    """A structural parameter of the owner, as the value of one of a sub-component."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __repr__(self) -> str:
+        return f"structural({self.name!r})"
+
+
+def structural(name: str) -> Any:
+    """The value of the owner's structural parameter `name`, in the declaration of a sub-component.
+
+    ``body: Body = Body(angles_fixed=structural("angles_fixed"))``. (Parameters are passed on by themselves, `m=m`.)
+    """
+    return StructuralReference(name)
+
+
+def with_structure(child: Any, owner: Component) -> Any:
+    """A declaration with references to structural parameters of `owner` replaced by their values."""
+    if isinstance(child, StructuralReference):
+        if child.name not in type(owner)._structural and not isinstance(
+            inspect.getattr_static(type(owner), child.name, None), property
+        ):
+            raise DeclarationError(
+                f"`{type(owner).__name__}`: {child!r} is no structural parameter or property of the class."
+                f"{nearest(child.name, type(owner)._structural)} ({type(owner)._source[0]}:{type(owner)._source[1]})"
+            )
+        return getattr(owner, child.name)
+    if isinstance(child, Shared):
+        return Shared(with_structure(child.component, owner), child.role)
+    if isinstance(child, Array):
+        copy = Array(with_structure(child._element, owner), child._count, **child._values)
+        copy._length = child._length
+        return copy
+    if isinstance(child, (list, tuple)) and child and all(isinstance(c, Component) for c in child):
+        return [with_structure(c, owner) for c in child]
+    if not isinstance(child, Component) or not _refers(child):
+        return child
+    copy = object.__new__(type(child))
+    copy.__dict__["_path"] = ()
+    mods = child.__dict__["_mods"]
+    found = {k: with_structure(v, owner) for k, v in mods.items()}
+    copy.__dict__["_mods"] = {k: checked(type(child), k, v) if v is not mods[k] else v for k, v in found.items()}
+    return copy
+
+
+def _refers(component: Component) -> bool:
+    values = component.__dict__["_mods"].values()
+    return any(isinstance(v, StructuralReference) or (isinstance(v, Component) and _refers(v)) for v in values)
+
+
 def conditional(component: C, condition: str) -> C:
     """Declare a sub-component or connector that exists only where the boolean field `condition` is True.
 
@@ -280,7 +337,7 @@ def effective_child(owner: Component, name: str) -> Any:
     (Modelica Language Specification 3.6, section 7.3.2, constraining clause).
     """
     descriptor = type(owner)._children[name]
-    default = descriptor.default
+    default = with_structure(descriptor.default, owner)
     given = owner.__dict__["_mods"].get(name)
     child = default if given is None else merged(default, given)
     if isinstance(child, Array) and child._length is None:
@@ -351,7 +408,8 @@ def with_modifications(component: C, mods: Mapping[str, Any]) -> C:
     """A copy of `component` with modifications added (checked)."""
     copy = object.__new__(type(component))
     new = {k: checked(type(component), k, v) for k, v in by_element(type(component), mods).items()}
-    copy.__dict__["_mods"] = {**component.__dict__["_mods"], **new}
+    together = {**component.__dict__["_mods"], **new}
+    copy.__dict__["_mods"] = {**together, **{k: v for k, v in component._implied(together).items() if k not in new}}
     copy.__dict__["_path"] = ()
     return copy
 
@@ -566,6 +624,8 @@ def numbers(value: Any) -> Any:
 
 
 def _checked_structural(cls: type[Component], field: Structural, value: Any) -> Any:
+    if isinstance(value, StructuralReference):
+        return value  # resolved where the owner is known
     wanted = field.annotation
     if wanted is tuple:
         found = numbers(value)
@@ -614,4 +674,4 @@ class Connector(Component, partial=True):
     """An interface: potentials (equal over a connection) and flows (sum to zero, positive into the component)."""
 
 
-__all__ = ["Array", "Component", "Connector", "Equations", "Self", "conditional", "inner", "outer"]
+__all__ = ["Array", "Component", "Connector", "Equations", "Self", "conditional", "inner", "outer", "structural"]

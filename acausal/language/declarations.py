@@ -137,7 +137,7 @@ class Declaration(_Arithmetic):
         nominal: float | None = None,
         min: float | None = None,
         max: float | None = None,
-        state_select: StateSelect = "default",
+        state_select: StateSelect | Any = "default",
         evaluate: bool = False,
     ) -> None:
         self.name = ""
@@ -151,9 +151,9 @@ class Declaration(_Arithmetic):
         self.nominal = nominal
         self.min = min
         self.max = max
-        self.state_select: StateSelect = state_select
+        self.state_select = state_select
         self.origin: Origin | None = None
-        if state_select not in STATE_SELECT:
+        if isinstance(state_select, str) and state_select not in STATE_SELECT:
             raise DeclarationError(f"state_select={state_select!r} is not one of {', '.join(STATE_SELECT)}")
         if nominal is not None and not nominal > 0:
             raise DeclarationError(f"nominal={nominal!r} must be a positive number: it is a scale")
@@ -191,7 +191,8 @@ class Variable(Declaration):
         nominal: typical magnitude, the scale of the solvers' error control.
         min: lower bound (documentation and checks).
         max: upper bound.
-        state_select: how much the compiler should want this variable as a state.
+        state_select: how much the compiler should want this variable as a state; ``structural("name")`` leaves it to a
+            structural parameter of the class.
     """
 
     def __init__(
@@ -204,7 +205,7 @@ class Variable(Declaration):
         nominal: float | None = None,
         min: float | None = None,
         max: float | None = None,
-        state_select: StateSelect = "default",
+        state_select: StateSelect | Any = "default",
     ) -> None:
         super().__init__(
             unit=unit, doc=doc, start=start, fixed=fixed, nominal=nominal, min=min, max=max, state_select=state_select

@@ -15,7 +15,7 @@ from ..errors import AcausalError, DeclarationError
 from ..symbolic.equation import DEFINITION, Equation, Origin
 from ..symbolic.expr import Expr, as_expr, intern_node, symbol
 from ..symbolic.traverse import leaves, substitute
-from .component import Array, Component, Connector, Shared, effective_child, merged, numbers, path_text, present, view
+from .component import Array, Component, Connector, Shared, effective_child, merged, numbers, path_text, present, view, with_structure
 from .connections import Connect
 from .declarations import STATE_SELECT, Declaration, Kind, Start
 from .events import Assert, When
@@ -130,7 +130,8 @@ class Elaborator:
                 if value is not None:
                     self._set(cls, template, out, name, value)
                 continue
-            given = Start(declaration.start, declaration.fixed, declaration.nominal, declaration.state_select)
+            select = _state_select(component, declaration)
+            given = Start(declaration.start, declaration.fixed, declaration.nominal, select)
             self._set(cls, template, out, name, given)
             if name in mods:
                 self._set(cls, template, out, name, mods[name])
@@ -188,7 +189,7 @@ class Elaborator:
         cls = type(component)
         descriptor = cls._children[name]
         given = component.__dict__["_mods"].get(name)
-        default = resolve_scope(descriptor.default, cls, len(self.stack) - 1)
+        default = resolve_scope(with_structure(descriptor.default, component), cls, len(self.stack) - 1)
         child = default if given is None else merged(default, given)
         role = ""
         if isinstance(child, Shared):
@@ -261,6 +262,18 @@ def _partial_outer(child: Component) -> tuple[Template, None]:
     template = Template(type(child), {})
     template.layout_own()
     return template, None
+
+
+def _state_select(component: Component, declaration: Declaration) -> Any:
+    """The wish that a declaration states, or that the structural parameter it refers to does."""
+    wish = with_structure(declaration.state_select, component)
+    if wish not in STATE_SELECT:
+        cls = type(component)
+        raise DeclarationError(
+            f"`{cls.__name__}.{declaration.name}`: state_select={declaration.state_select!r} is {wish!r}, which is not "
+            f"one of {', '.join(STATE_SELECT)} ({cls._source[0]}:{cls._source[1]})"
+        )
+    return wish
 
 
 def _plain(cls: type[Component], mods: dict[str, Any]) -> bool:

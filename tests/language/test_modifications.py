@@ -154,3 +154,36 @@ def test_redeclare_takes_components() -> None:
         ac.redeclare(Board(), {"load": 3.0})  # type: ignore[dict-item]
     with pytest.raises(ac.DeclarationError, match="declared as `TwoPin`"):
         ac.redeclare(Board(), {"load": Ground()})
+
+
+class Layered(ac.Component):
+    """A part whose equations depend on a structural parameter."""
+
+    double: bool = False
+    x: ac.Variable = ac.Variable()
+
+    def equations(self) -> ac.Equations:
+        yield self.x == (2.0 if self.double else 1.0)
+
+
+class Owner(ac.Component):
+    """Passes its structural parameter on."""
+
+    twice: bool = False
+    part: Layered = Layered(double=ac.structural("twice"))
+
+
+def test_structural_parameters_are_passed_on() -> None:
+    assert ac.compile(Owner()).simulate(t1=1.0)["part.x"][-1] == 1.0
+    assert ac.compile(Owner(twice=True)).simulate(t1=1.0)["part.x"][-1] == 2.0
+    assert ac.compile(Owner(twice=True, part=Layered(double=False))).simulate(t1=1.0)["part.x"][-1] == 1.0
+
+
+class Misnamed(ac.Component):
+    twice: bool = False
+    part: Layered = Layered(double=ac.structural("twise"))
+
+
+def test_a_misnamed_structural_parameter_is_named() -> None:
+    with pytest.raises(ac.DeclarationError, match=r"structural\('twise'\) is no structural parameter.*`twice`"):
+        ac.compile(Misnamed())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from acausal import (
     Equations,
+    Matrix,
     Parameter,
     Variable,
     Vector,
@@ -19,6 +20,7 @@ from acausal import (
 )
 
 from .frames import (
+    IDENTITY,
     ZEROS,
     Frame,
     axes_rotations,
@@ -106,7 +108,7 @@ class Body(Grounded):
         inertia = self.inertia()
         yield self.frame_a.t == inertia @ z + cross(w, inertia @ w) + cross(r_CM, self.frame_a.f)
 
-    def inertia(self):  # -> Matrix
+    def inertia(self) -> Matrix:
         """Inertia tensor about the centre of mass."""
         return matrix(
             (self.I_11, self.I_21, self.I_31), (self.I_21, self.I_22, self.I_32), (self.I_31, self.I_32, self.I_33)
@@ -122,3 +124,33 @@ class Body(Grounded):
             yield resolve1(R, R.w) == self.w_0_start
         if self.z_0_fixed:
             yield resolve1(R, self.z_a) == self.z_0_start
+
+
+class PointMass(Grounded):
+    """Mass without extension: ``f = m T (a_0 - g_0)``, no torque.
+
+    Where nothing else gives the orientation of its frame, it is that of the world.
+
+    >>> model = assemble(world=ac.inner(World(g=10.0)), stone=PointMass(r_0=start((0.0, 5.0, 0.0), fixed=True)))
+    >>> close(run(model, at=[1.0])["stone.r_0[2]"], [0.0])
+    True
+
+    Source: Modelica.Mechanics.MultiBody.Parts.PointMass.
+    """
+
+    frame_a: Frame = Frame()
+    m: Parameter = Parameter(1.0, unit="kg", min=0.0, doc="mass")
+    r_0: Vector = Vector(Variable(unit="m", state_select="avoid", doc="position in the world frame"))
+    v_0: Vector = Vector(Variable(unit="m/s", state_select="avoid", doc="velocity, in the world frame"))
+    a_0: Vector = Vector(Variable(unit="m/s2", doc="acceleration, in the world frame"))
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        R = self.frame_a.R
+        yield potential_root(R, 10000)
+        # as a root it is held parallel to the world, and the torque is what that takes
+        yield choose(is_root(R), [defining(R.T == IDENTITY), R.w == ZEROS], [self.frame_a.t == ZEROS])
+        yield self.r_0 == self.frame_a.r_0
+        yield self.v_0 == der(self.frame_a.r_0)
+        yield self.a_0 == der(self.v_0)
+        yield self.frame_a.f == resolve2(R, self.a_0 - self.world.gravity(self.frame_a.r_0)) * self.m

@@ -28,6 +28,7 @@ from acausal import (
     norm,
     sin,
     vector,
+    where,
 )
 from acausal.language.vectors import VectorEquation
 
@@ -152,9 +153,16 @@ def axes_rotations(sequence: Sequence[float], angles: Vector, rates: Vector | No
 
 
 def from_nxy(n_x: Vector, n_y: Vector) -> Matrix:
-    """Matrix of the frame with x axis along `n_x` and y axis in the plane of `n_x` and `n_y`."""
+    """Matrix of the frame with x axis along `n_x` and y axis in the plane of `n_x` and `n_y`.
+
+    Where both are parallel, another axis takes the place of `n_y`.
+    """
     e_x = unit_vector(n_x)
-    e_z = unit_vector(cross(n_x, n_y))
+    across = cross(e_x, n_y)
+    parallel = dot(across, across) < 1e-6
+    other = where(abs(e_x[0]) > 1e-6, 1.0, 0.0)
+    chosen = vector(*(where(parallel, b, a) for a, b in zip(n_y, (1.0 - other, other, 0.0), strict=True)))
+    e_z = unit_vector(cross(e_x, chosen))
     return matrix(e_x, cross(e_z, e_x), e_z)
 
 
