@@ -15,7 +15,19 @@ from ..errors import AcausalError, DeclarationError
 from ..symbolic.equation import DEFINITION, Equation, Origin
 from ..symbolic.expr import Expr, as_expr, intern_node, symbol
 from ..symbolic.traverse import leaves, substitute
-from .component import Array, Component, Connector, Shared, effective_child, merged, numbers, path_text, present, view, with_structure
+from .component import (
+    Array,
+    Component,
+    Connector,
+    Shared,
+    effective_child,
+    merged,
+    numbers,
+    path_text,
+    present,
+    view,
+    with_structure,
+)
 from .connections import Connect
 from .declarations import STATE_SELECT, Declaration, Kind, Start
 from .events import Assert, When

@@ -11,7 +11,7 @@ import acausal as ac
 
 from .examples import First, Oscillator, TwoMasses
 from .msl import CauerLowPassAnalog, ElastoGap, PID_Controller
-from .msl_multibody import Pendulum
+from .msl_multibody import Fourbar1, Pendulum
 
 DATA = Path(__file__).parents[1] / "reference" / "msl"
 
@@ -24,7 +24,8 @@ def read(name: str) -> tuple[list[str], np.ndarray]:
     return header, values[np.concatenate([[True], np.diff(values[:, 0]) > 0])]
 
 
-MODELS = [First(), Oscillator(), TwoMasses(), ElastoGap(), CauerLowPassAnalog(), PID_Controller(), Pendulum()]
+MODELS = [First(), Oscillator(), TwoMasses(), ElastoGap(), CauerLowPassAnalog(), PID_Controller(), Pendulum(),
+          Fourbar1()]  # fmt: skip
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda m: type(m).__name__)

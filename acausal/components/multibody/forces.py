@@ -61,8 +61,9 @@ class PartialWorldAction(PartialResolved, partial=True):
 class WorldForce(PartialWorldAction):
     """External force `force` on frame_b, resolved in the world frame (or as `resolveInFrame` says).
 
-    >>> model = assemble("push.frame_b - stone.frame_a", "x.y - push.force[0]", "y.y - push.force[1]", "y.y - push.force[2]",
-    ...                  world=ac.inner(World(gravityType="NoGravity")), push=WorldForce(), stone=Body(m=2.0),
+    >>> model = assemble("push.frame_b - stone.frame_a", "x.y - push.force[0]", "y.y - push.force[1]",
+    ...                  "y.y - push.force[2]", world=ac.inner(World(gravityType="NoGravity")),
+    ...                  push=WorldForce(), stone=Body(m=2.0),
     ...                  x=Constant(k=4.0), y=Constant(k=0.0))
     >>> close(run(model, at=[1.0])["stone.r_0[1]"], [1.0])
     True
@@ -101,8 +102,8 @@ class WorldTorque(PartialWorldAction):
 class WorldForceAndTorque(PartialWorldAction):
     """External force and torque on frame_b.
 
-    >>> model = assemble("act.frame_b - wheel.frame_a", "x.y - act.torque[0]", "y.y - act.torque[1]", "y.y - act.torque[2]",
-    ...                  "x.y - act.force[0]", "y.y - act.force[1]", "y.y - act.force[2]",
+    >>> model = assemble("act.frame_b - wheel.frame_a", "x.y - act.torque[0]", "y.y - act.torque[1]",
+    ...                  "y.y - act.torque[2]", "x.y - act.force[0]", "y.y - act.force[1]", "y.y - act.force[2]",
     ...                  world=ac.inner(World(gravityType="NoGravity")), act=WorldForceAndTorque(),
     ...                  wheel=Body(I_11=2.0, m=2.0), x=Constant(k=4.0), y=Constant(k=0.0))
     >>> solution = run(model, at=[1.0])
@@ -140,7 +141,7 @@ def _react(action: PartialAction, f_b_0: Vector, t_b_0: Vector) -> Equations:
 
 
 class Force(PartialAction):
-    """Force `force` on frame_b, and its reaction (with a torque, where the line between them is not its own) on frame_a.
+    """Force `force` on frame_b, and its reaction (with a torque, where the force points past it) on frame_a.
 
     >>> model = assemble("world.frame_b - push.frame_a", "push.frame_b - stone.frame_a", "x.y - push.force[0]",
     ...                  "y.y - push.force[1]", "y.y - push.force[2]", push=Force(), stone=Body(m=2.0),

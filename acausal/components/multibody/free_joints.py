@@ -5,11 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from acausal import Equations, Parameter, Variable, Vector, branch, cross, defining, der, dot, norm, vector, where
+from acausal import Equations, Parameter, Variable, Vector, branch, cross, der, dot, vector, where
 
 from .frames import (
-    ZEROS, Rotation, axes_rotations, equal, from_quaternion, quaternion_rate, relative_rotation, resolve1, resolve2,
-    resolve_relative, rotation_residual, unit_vector,
+    ZEROS,
+    Rotation,
+    axes_rotations,
+    from_quaternion,
+    quaternion_rate,
+    relative_rotation,
+    resolve1,
+    resolve2,
+    resolve_relative,
+    rotation_residual,
+    unit_vector,
 )  # fmt: skip
 from .parts import PartialTwoFrames, turned
 from .world import Grounded
@@ -146,9 +155,10 @@ class RevolutePlanarLoopConstraint(PartialTwoFrames):
     Source: Modelica.Mechanics.MultiBody.Joints.RevolutePlanarLoopConstraint.
 
     >>> crank = dict(phi=start(0.5, fixed=True), w=start(1.0, fixed=True))
-    >>> bar = dict(I_33=0.0, I_11=0.0, I_22=0.0, m=1e-6)  # a parallelogram: the rod stays parallel to the ground
+    >>> # a parallelogram: the rod stays parallel to the ground
     >>> parts = dict(world=ac.inner(World(gravityType="NoGravity")), a=Revolute(**crank), b=Revolute(), c=Revolute(),
-    ...     d=RevolutePlanarLoopConstraint(), left=FixedTranslation(r=(0.0, 1.0, 0.0)), base=FixedTranslation(r=(2.0, 0.0, 0.0)),
+    ...     d=RevolutePlanarLoopConstraint(), left=FixedTranslation(r=(0.0, 1.0, 0.0)),
+    ...     base=FixedTranslation(r=(2.0, 0.0, 0.0)),
     ...     right=BodyShape(r=(0.0, 1.0, 0.0)), rod=BodyShape(r=(2.0, 0.0, 0.0), m=3.0))
     >>> model = assemble("world.frame_b - a.frame_a", "a.frame_b - left.frame_a", "left.frame_b - b.frame_a",
     ...     "b.frame_b - rod.frame_a", "rod.frame_b - d.frame_a", "d.frame_b - right.frame_b",
@@ -169,9 +179,8 @@ class RevolutePlanarLoopConstraint(PartialTwoFrames):
         e = unit_vector(self.n)
         first = abs(e[0]) > 0.1
         second = abs(e[1]) > 0.1
-        other = vector(
-            where(first, 0.0, where(second, 0.0, 1.0)), where(first, 1.0, 0.0), where(first, 0.0, where(second, 1.0, 0.0))
-        )
+        otherwise = vector(where(second, 0.0, 1.0), 0.0, where(second, 1.0, 0.0))
+        other = vector(*(where(first, x, o) for x, o in zip((0.0, 1.0, 0.0), otherwise, strict=True)))
         y = unit_vector(cross(e, other))
         return cross(y, e), y
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from acausal import Equations, Parameter, Variable, Vector, conditional, der, max, noevent, norm, vector
+from acausal import Equations, Parameter, Variable, Vector, der, max, noevent, norm
 
 from .. import translational
 from .frames import ZEROS, resolve2, resolve_relative
@@ -88,10 +88,10 @@ class LineForceWithMass(PartialMassiveLineForce):
     ``flange_a.s = 0``, ``flange_b.s = s``. (In Modelica one flange alone may be connected, with its reaction on the
     other; here the other is connected to a component that is fixed.)
 
-    >>> model = assemble("world.frame_b - line.frame_a", "line.frame_b - bob.frame_a", "line.flange_a - spring.flange_a",
-    ...                  "line.flange_b - spring.flange_b", world=ac.inner(World(g=10.0)), line=LineForceWithMass(),
-    ...                  spring=translational.Spring(c=10.0, s_rel0=1.0),
-    ...                  bob=PointMass(m=2.0, r_0=start((0.0, -2.0, 0.0), fixed=True)))
+    >>> model = assemble("world.frame_b - line.frame_a", "line.frame_b - bob.frame_a",
+    ...                  "line.flange_a - spring.flange_a", "line.flange_b - spring.flange_b",
+    ...                  world=ac.inner(World(g=10.0)), line=LineForceWithMass(),
+    ...                  spring=translational.Spring(c=10.0, s_rel0=1.0), bob=PointMass(m=2.0, r_0=start((0.0, -2.0, 0.0), fixed=True)))
     >>> close(run(model, at=[0.0])["bob.a_0[2]"], [-5.0])  # 10*(2 - 1)/2 - 10
     True
 
@@ -114,8 +114,8 @@ class LineForceWithMass(PartialMassiveLineForce):
 class Spring(PartialMassiveLineForce):
     """Spring between two frames, ``f = c (s - s_unstretched)``.
 
-    >>> model = assemble("world.frame_b - spring.frame_a", "spring.frame_b - bob.frame_a", world=ac.inner(World(g=10.0)),
-    ...                  spring=Spring(c=10.0, s_unstretched=1.0),
+    >>> model = assemble("world.frame_b - spring.frame_a", "spring.frame_b - bob.frame_a",
+    ...                  world=ac.inner(World(g=10.0)), spring=Spring(c=10.0, s_unstretched=1.0),
     ...                  bob=PointMass(m=2.0, r_0=start((0.0, -2.0, 0.0), fixed=True)))
     >>> close(run(model, at=[0.0])["bob.a_0[2]"], [-5.0])  # 10*(2 - 1)/2 - 10
     True

@@ -6,8 +6,18 @@ from acausal import Component, Equations, Parameter, Vector, branch, choose, cro
 from acausal.language.overdetermined import Choice
 
 from .frames import (
-    ZEROS, Frame, Rotation, absolute_rotation, axes_rotations, equal, from_nxy, inverse_rotation, planar_rotation, resolve1,
-    resolve2, unit_vector,
+    ZEROS,
+    Frame,
+    Rotation,
+    absolute_rotation,
+    axes_rotations,
+    equal,
+    from_nxy,
+    inverse_rotation,
+    planar_rotation,
+    resolve1,
+    resolve2,
+    unit_vector,
 )  # fmt: skip
 
 DEGREE = 0.017453292519943295

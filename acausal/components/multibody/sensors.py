@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from acausal import Component, Equations, Output, Variable, Vector, branch, cross, der, dot, norm
+from acausal import Equations, Output, Variable, Vector, branch, cross, der, dot, norm
 
 from .forces import PartialResolved
-from .frames import ZEROS, Frame, equal, relative_rotation, resolve1, resolve2
+from .frames import ZEROS, Frame, equal, resolve1, resolve2
 from .parts import PartialTwoFrames
 
 
@@ -260,13 +260,11 @@ class CutForceAndTorque(PartialCutSensor):
 class Power(PartialTwoFrames):
     """Power that flows from frame_a to frame_b, ``f_a.v_a + t_a.w_a``.
 
-    >>> model = assemble("rail.frame_b - sensor.frame_a", "sensor.frame_b - load.frame_a", load=Body(m=2.0),
-    ...                  world=ac.inner(World(g=10.0)), sensor=Power(), rail=Prismatic(n=(0.0, 1.0, 0.0)),
-    ...                  grip=Fixed())
-    >>> model = assemble("grip.frame_b - rail.frame_a", "rail.frame_b - sensor.frame_a", "sensor.frame_b - load.frame_a",
-    ...                  load=Body(m=2.0), world=ac.inner(World(g=10.0)), sensor=Power(), grip=Fixed(),
-    ...                  rail=Prismatic(n=(0.0, 1.0, 0.0), useAxisFlange=True, v=start(1.0, fixed=True)))
-    >>> close(run(model, at=[0.0])["sensor.power"], [0.0])  # it falls freely: no force
+    >>> bob = PointMass(m=2.0, r_0=start((0.0, -2.0, 0.0), fixed=True), v_0=start((0.0, -1.0, 0.0), fixed=True))
+    >>> model = assemble("world.frame_b - spring.frame_a", "spring.frame_b - sensor.frame_a",
+    ...                  "sensor.frame_b - bob.frame_a", bob=bob, sensor=Power(),
+    ...                  world=ac.inner(World(g=10.0)), spring=Spring(c=10.0, s_unstretched=1.0))
+    >>> close(run(model, at=[0.0])["sensor.power"], [-10.0])  # 10 N upward at 1 m/s downward
     True
 
     Source: Modelica.Mechanics.MultiBody.Sensors.Power.

@@ -2,8 +2,20 @@
 
 from __future__ import annotations
 
-from acausal import PI, Component, Equations, Matrix, Parameter, Variable, Vector, connect, matrix, norm, structural
-from acausal import vector
+from acausal import (
+    PI,
+    Component,
+    Equations,
+    Matrix,
+    Parameter,
+    Variable,
+    Vector,
+    connect,
+    matrix,
+    norm,
+    structural,
+    vector,
+)
 
 from .bodies import Body
 from .frames import IDENTITY, ZEROS, Frame, from_nxy, unit_vector
@@ -120,13 +132,16 @@ class BodyCylinder(PartialBodyShape):
     mo: Parameter = Parameter(density * PI * length * diameter**2 / 4, unit="kg", doc="mass without the hole")
     mi: Parameter = Parameter(density * PI * length * innerDiameter**2 / 4, unit="kg", doc="mass of what is not there")
     m: Parameter = Parameter(mo - mi, unit="kg", min=0.0, doc="mass")
-    I11: Parameter = Parameter((mo * diameter**2 - mi * innerDiameter**2) / 8, unit="kg*m2", doc="inertia about the axis")
+    I11: Parameter = Parameter(
+        (mo * diameter**2 - mi * innerDiameter**2) / 8, unit="kg*m2", doc="inertia about the axis"
+    )
     I22: Parameter = Parameter(
         (mo * (length**2 + diameter**2 * 0.75) - mi * (length**2 + innerDiameter**2 * 0.75)) / 12,
         unit="kg*m2", doc="inertia across the axis",
     )  # fmt: skip
     r_CM: Vector = Vector(
-        Parameter(unit="m", doc="from frame_a to the centre of mass"), r_shape + unit_vector(lengthDirection) * length / 2
+        Parameter(unit="m", doc="from frame_a to the centre of mass"),
+        r_shape + unit_vector(lengthDirection) * length / 2,
     )
     body: Body = _with_starts(
         r_CM=r_CM, m=m,
@@ -170,9 +185,12 @@ class BodyBox(PartialBodyShape):
             (mo * (length**2 + width**2) - mi * (length**2 + innerWidth**2)) / 12,
         ),
     )
-    T: Matrix = Matrix(Parameter(unit="1", doc="from frame_a to the axes of the box"), from_nxy(PartialBodyShape.r, widthDirection))
+    T: Matrix = Matrix(
+        Parameter(unit="1", doc="from frame_a to the axes of the box"), from_nxy(PartialBodyShape.r, widthDirection)
+    )
     r_CM: Vector = Vector(
-        Parameter(unit="m", doc="from frame_a to the centre of mass"), r_shape + unit_vector(lengthDirection) * length / 2
+        Parameter(unit="m", doc="from frame_a to the centre of mass"),
+        r_shape + unit_vector(lengthDirection) * length / 2,
     )
     body: Body = _with_starts(
         r_CM=r_CM, m=m, **_tensor(T.transpose() @ matrix((J[0], 0.0, 0.0), (0.0, J[1], 0.0), (0.0, 0.0, J[2])) @ T)
