@@ -91,7 +91,8 @@ class LineForceWithMass(PartialMassiveLineForce):
     >>> model = assemble("world.frame_b - line.frame_a", "line.frame_b - bob.frame_a",
     ...                  "line.flange_a - spring.flange_a", "line.flange_b - spring.flange_b",
     ...                  world=ac.inner(World(g=10.0)), line=LineForceWithMass(),
-    ...                  spring=translational.Spring(c=10.0, s_rel0=1.0), bob=PointMass(m=2.0, r_0=start((0.0, -2.0, 0.0), fixed=True)))
+    ...                  spring=translational.Spring(c=10.0, s_rel0=1.0),
+    ...                  bob=PointMass(m=2.0, r_0=start((0.0, -2.0, 0.0), fixed=True)))
     >>> close(run(model, at=[0.0])["bob.a_0[2]"], [-5.0])  # 10*(2 - 1)/2 - 10
     True
 
