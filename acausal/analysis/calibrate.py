@@ -40,7 +40,7 @@ def calibrate(
     start: Mapping[str, float] | None = None,
     starts: int = 1,
     seed: int = 0,
-    tolerance: float = 1e-4,
+    tolerance: float = 0.01,
     iterations: int = 100,
     rtol: float = 1e-6,
     atol: float | None = None,
@@ -65,8 +65,8 @@ def calibrate(
         start: where to begin, by name; default the model's own values.
         starts: number of starts; those after the first are drawn from bounds and priors (Latin hypercube).
         seed: of that draw.
-        tolerance: at which the iteration ends, on coordinates (of the order of 1) and cost: a small part of the
-            standard errors.
+        tolerance: the iteration ends where its next step would move no value by more than this part of its standard
+            error.
         iterations: most iterations of each start.
         rtol, atol, engine, max_steps: of the simulations, as in `System.simulate`.
         **options: further options of `System.simulate`.
@@ -164,14 +164,8 @@ class Search:
         return found
 
     def _values(self, z: Floats) -> Floats:
-        from scipy.special import expit
-
-        priors = [f.prior for f in self.problem.free]
-        out = np.empty(len(z))
-        for k, (prior, x) in enumerate(zip(priors, z, strict=True)):
-            a, b = prior.numbers
-            out[k] = prior.value(a + b * x if prior.informative else a + (b - a) * expit(x))
-        return out
+        pairs = [(f.prior, *f.prior.numbers) for f in self.problem.free]
+        return np.array([prior.value(a + b * x) for (prior, a, b), x in zip(pairs, z.tolist(), strict=True)])
 
     def _explain(self, values: Floats) -> None:
         """Simulate each experiment with plain numbers, so that the failure is raised with its reason."""

@@ -1,8 +1,8 @@
 """What is known about a free parameter: bounds, a scale, a distribution.
 
-A prior gives a free parameter an internal coordinate z that runs over all real numbers, so that the optimizer never
-leaves the bounds; its natural scale (linear or logarithmic), on which intervals are stated; for `Normal` and
-`LogNormal` a residual of its own; and quantiles, from which several starts and ensembles are drawn.
+A prior gives a free parameter its natural scale (linear or logarithmic), on which intervals are stated; an internal
+coordinate z, which is linear in it and runs from 0 to 1 between bounds, or counts standard deviations from the mean;
+for `Normal` and `LogNormal` a residual of its own; and quantiles, from which several starts and ensembles are drawn.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Prior(ABC):
     @property
     @abstractmethod
     def numbers(self) -> tuple[float, float]:
-        """The two numbers of the transformation."""
+        """(a, b): the natural value is ``a + b z``."""
 
     @property
     @abstractmethod
@@ -66,27 +66,26 @@ class Prior(ABC):
     def internal(self, value: float) -> float:
         """Internal coordinate of a value inside the range."""
         a, b = self.numbers
-        y = float(self.natural(value))
-        if self.informative:
-            return (y - a) / b
-        part = (y - a) / (b - a)
-        return math.log(part / (1.0 - part))
+        return (float(self.natural(value)) - a) / b
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Ends of the internal coordinate."""
+        return (-math.inf, math.inf) if self.informative else (0.0, 1.0)
 
     def at_bound(self, value: float) -> str:
         """``lower`` or ``upper`` if the value is at that bound, else an empty text."""
         if self.informative:
             return ""
-        a, b = self.numbers
-        part = (float(self.natural(value)) - a) / (b - a)
+        part = self.internal(value)
         return "lower" if part < AT_BOUND else "upper" if part > 1 - AT_BOUND else ""
 
 
 def decode(kind: str, a: Any, b: Any, z: Any) -> Any:
     """The value for an internal coordinate, with JAX; `a` and `b` are the prior's `numbers`."""
-    import jax
     import jax.numpy as jnp
 
-    natural = a + b * z if kind in ("Normal", "LogNormal") else a + (b - a) * jax.nn.sigmoid(z)
+    natural = a + b * z
     return jnp.exp(natural) if kind in ("LogBounds", "LogNormal") else natural
 
 
@@ -113,11 +112,11 @@ class Bounds(Prior):
 
     @property
     def numbers(self) -> tuple[float, float]:
-        return float(self.lo), float(self.hi)
+        return float(self.lo), float(self.hi - self.lo)
 
     @property
     def range(self) -> tuple[float, float]:
-        return self.numbers
+        return float(self.lo), float(self.hi)
 
     def quantile(self, u: Any) -> Floats:
         return self.lo + (self.hi - self.lo) * np.asarray(u, float)
@@ -139,7 +138,7 @@ class LogBounds(Prior):
 
     @property
     def numbers(self) -> tuple[float, float]:
-        return math.log(self.lo), math.log(self.hi)
+        return math.log(self.lo), math.log(self.hi / self.lo)
 
     @property
     def range(self) -> tuple[float, float]:
@@ -147,7 +146,7 @@ class LogBounds(Prior):
 
     def quantile(self, u: Any) -> Floats:
         a, b = self.numbers
-        return np.exp(a + (b - a) * np.asarray(u, float))
+        return np.exp(a + b * np.asarray(u, float))
 
 
 @dataclass(frozen=True, slots=True)
