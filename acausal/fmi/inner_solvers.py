@@ -114,7 +114,7 @@ def _diffrax(lowered: Any, solver: Any, dt: float | None, rtol: float, atol: flo
     def advance(t: Any, h: Any, x: Array, w: Array, p: Any, hint: Any) -> Advanced:
         if adaptive:
             smallest = ROUNDING * jnp.maximum(jnp.abs(t + h), h)
-            controller: Any = ErrorControl(rtol=rtol, atol=atol * scale, smallest=smallest)
+            controller: Any = ErrorControl(rtol=rtol, atol=atol * scale, smallest=smallest, states=n_x)
         else:
             controller = diffrax.ConstantStepSize()
         y0, args = (jnp.concatenate([x, w]), p) if together else (x, (p, w))

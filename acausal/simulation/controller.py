@@ -14,6 +14,8 @@ from jax import Array
 
 ROUNDING = 1e-14
 """Smallest step as a fraction of the time: some tens of the spacing of floating-point numbers."""
+JUMP = 1e3
+"""Error of the states, in tolerances, up to which a smallest step may be forced."""
 FORCED_STEPS = 50
 """So many steps in a row may be forced; more means that the solution does not leave the discontinuity."""
 
@@ -27,15 +29,17 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
     """PI control of the step size, that crosses a jump of the vector field by one smallest step.
 
     No error estimate falls below the tolerance while a step contains a jump. The steps shrink to `smallest`, which
-    is of the order of rounding error of the time: that step is taken whatever its estimate, as long as it is finite.
-    The error it makes is the jump times `smallest`. A state that stops being finite, or `FORCED_STEPS` forced steps
-    in a row, end the solve with `dt_min_reached`.
+    is of the order of rounding error of the time: that step is taken in spite of its estimate. The error it makes in
+    the states is the jump times `smallest`; algebraic unknowns may jump themselves. A state whose estimate is above
+    `JUMP` tolerances, or one that is not finite, or `FORCED_STEPS` forced steps in a row end the solve with
+    `dt_min_reached`: there the solution has ended.
 
     Coefficients of the PI control: Hairer & Wanner, *Solving Ordinary Differential Equations II*, IV.2, as in diffrax.
 
     Args:
         rtol: relative tolerance.
         atol: absolute tolerance, one number or one for each variable.
+        states: how many of the unknowns, the first ones, are states; None for all.
         smallest: smallest step at the far end of the time axis [s]; elsewhere the smallest step is that fraction of
             the time, so that a run over 1e11 s can begin with steps of microseconds.
     """
@@ -43,6 +47,7 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
     rtol: Any
     atol: Any
     smallest: Any
+    states: int | None = eqx.field(static=True, default=None)
     norm: Callable[[Any], Any] = eqx.field(static=True, default=largest)
 
     @property
@@ -74,10 +79,12 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
         finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(leaf)) for leaf in leaves]))
         floor = jnp.maximum(ROUNDING * jnp.abs(t0), 1e-10 * self.smallest)
         at_floor = t1 - t0 <= 1.5 * floor
-        force = at_floor & ~kept & finite
+        magnitude = jnp.maximum(jnp.abs(y0), jnp.abs(y1_candidate))
+        of_states = (jnp.abs(y_error) / (self.atol + self.rtol * magnitude))[..., : self.states]
+        force = at_floor & ~kept & finite & (jnp.max(of_states, initial=0.0) <= JUMP)
         forced = jnp.where(force, forced + 1, jnp.where(kept, 0, forced))
         next_t0 = jnp.where(force, t1, next_t0)
         step = jnp.where(force, floor, jnp.maximum(next_t1 - next_t0, floor))
-        failed = (at_floor & ~kept & ~finite) | (forced > FORCED_STEPS)
+        failed = (at_floor & ~kept & ~force) | (forced > FORCED_STEPS)
         result = RESULTS.where(failed, RESULTS.dt_min_reached, result)
         return kept | force, next_t0, next_t0 + step, jump, (inner, forced), result

@@ -266,7 +266,7 @@ def _solve(
     controller = settings.controller
     if controller is None and adaptive:
         smallest = ROUNDING * jnp.maximum(jnp.maximum(jnp.abs(t0), jnp.abs(t1)), jnp.abs(t1 - t0))
-        controller = ErrorControl(rtol=rtol, atol=scale, smallest=smallest)
+        controller = ErrorControl(rtol=rtol, atol=scale, smallest=smallest, states=n_x)
     elif controller is None:
         controller = diffrax.ConstantStepSize()
     if not settings.has_dt:

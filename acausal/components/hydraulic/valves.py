@@ -140,7 +140,7 @@ class PartialPressureValve(PartialOrifice, partial=True):
     """
 
     A_full: Parameter = Parameter(1e-4, unit="m2", min=0.0, doc="area when fully open")
-    A_leak: Parameter = Parameter(1e-12, unit="m2", min=0.0, doc="leakage area")
+    A_leak: Parameter = Parameter(1e-9, unit="m2", min=0.0, doc="leakage area")
     dp_open: Parameter = Parameter(1e5, unit="Pa", min=1e-30, doc="further pressure difference until fully open")
     opening: Variable = Variable(unit="1", doc="part of the area that is open")
 
@@ -253,7 +253,7 @@ class ShuttleValve(Component):
     port_b: HydraulicPort = HydraulicPort()
     port_c: HydraulicPort = HydraulicPort()
     A_full: Parameter = Parameter(2e-5, unit="m2", min=0.0, doc="area of each seat when open")
-    A_leak: Parameter = Parameter(1e-12, unit="m2", min=0.0, doc="leakage area of each seat")
+    A_leak: Parameter = Parameter(1e-9, unit="m2", min=0.0, doc="leakage area of each seat")
     dp_open: Parameter = Parameter(1e4, unit="Pa", min=1e-30, doc="pressure difference that moves the ball across")
     seat_a: VariableOrifice = VariableOrifice(A_leak=A_leak)
     seat_b: VariableOrifice = VariableOrifice(A_leak=A_leak)

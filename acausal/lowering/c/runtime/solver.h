@@ -190,16 +190,21 @@ static void ac_combine(const ac_work *w, const double *weights, const double *ba
         for (int i = 0; i < AC_N; i++) out[i] += weights[j] * w->k[j][i];
 }
 
-/* Largest error of a step in units of the tolerance. */
-static double ac_error(const ac_problem *q, const ac_work *w) {
+/* Largest error of a step in units of the tolerance, of the first n unknowns. */
+static double ac_error(const ac_problem *q, const ac_work *w, int n) {
     double worst = 0.0;
-    for (int i = 0; i < AC_N; i++) {
+    for (int i = 0; i < n; i++) {
         const double scale = q->atol[i] + q->rtol * ac_max(fabs(w->z[i]), fabs(w->z1[i]));
         const double e = fabs(w->k[7][i]) / scale;
         if (!(e <= worst)) worst = e; /* keeps what is not a number */
     }
     return worst;
 }
+
+/* Whether a smallest step may be taken in spite of its error: it crosses a jump of the right-hand side or of algebraic
+   unknowns. States are continuous; where they jump, the solution has ended. */
+#define AC_JUMP 1e3
+static int ac_jumped(const ac_problem *q, const ac_work *w) { return ac_error(q, w, AC_NX) <= AC_JUMP; }
 
 #define AC_DENSE_OUTPUT(NAME, TYPE)                                                                             \
     static void NAME(double s, const TYPE *y0, const TYPE *y1, TYPE (*v)[AC_N], TYPE *out) {                    \
@@ -339,12 +344,12 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
         if (!singular) {
             ac_stages(w, t, step);
             ac_combine(w, ac_B, w->z, w->z1);
-            error = ac_error(q, w);
+            error = ac_error(q, w, AC_N);
         }
         const int finite = error - error == 0.0;
         const int at_floor = h <= 1.5 * floor_;
         int keep = finite && error <= 1.0;
-        if (!keep && at_floor && finite && ++forced <= 50) keep = 1; /* a jump is crossed by one smallest step */
+        if (!keep && at_floor && finite && ac_jumped(q, w) && ++forced <= 50) keep = 1;
         else if (keep) forced = 0;
         if (!keep && at_floor) return singular ? AC_SINGULAR : AC_SMALLEST_STEP;
         const double size = ac_max(finite ? error : 1e10, 1e-10);

@@ -43,11 +43,11 @@ static AC_UNUSED int ac_advance(ac_problem *q, ac_work *w, ac_control *k) {
         if (!singular) {
             ac_stages(w, t, h);
             ac_combine(w, ac_B, w->z, w->z1);
-            error = ac_error(q, w);
+            error = ac_error(q, w, AC_N);
         }
         const int finite = error - error == 0.0, at_floor = h <= 1.5 * least;
         int keep = finite && error <= 1.0;
-        if (!keep && at_floor && finite && ++forced <= 50) keep = 1; /* a jump is crossed by one smallest step */
+        if (!keep && at_floor && finite && ac_jumped(q, w) && ++forced <= 50) keep = 1;
         else if (keep) forced = 0;
         if (!keep && at_floor) return singular ? AC_SINGULAR : AC_SMALLEST_STEP;
         const double size = ac_max(finite ? error : 1e10, 1e-10);
