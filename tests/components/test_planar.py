@@ -34,9 +34,9 @@ def energy(solution: ac.Solution, **bodies: tuple[float, float]) -> np.ndarray:
     """Kinetic and potential energy of bodies, each given by mass and moment of inertia."""
     total = np.zeros(len(solution.t))
     for name, (m, inertia) in bodies.items():
-        speed = np.asarray(solution[f"{name}.v_x"]) ** 2 + np.asarray(solution[f"{name}.v_y"]) ** 2
+        speed = np.asarray(solution[f"{name}.v[1]"]) ** 2 + np.asarray(solution[f"{name}.v[2]"]) ** 2
         total += 0.5 * m * speed + 0.5 * inertia * np.asarray(solution[f"{name}.w"]) ** 2
-        total += m * G * np.asarray(solution[f"{name}.r_y"])
+        total += m * G * np.asarray(solution[f"{name}.r[2]"])
     return total
 
 
@@ -44,7 +44,8 @@ def test_pendulum_swings_as_the_elliptic_functions_say() -> None:
     amplitude, m, length, inertia = 2.5, 2.0, 1.3, 0.7
     model = assemble(
         "wall.frame - hinge.frame_a", "hinge.frame_b - rod.frame_a", "rod.frame_b - bob.frame_a",
-        planarWorld=inner(planar.PlanarWorld()), wall=planar.Fixed(r_x=3.0), rod=planar.FixedTranslation(r_x=length),
+        planarWorld=inner(planar.PlanarWorld()), wall=planar.Fixed(r=(3.0, 0.0)),
+        rod=planar.FixedTranslation(r=(length, 0.0)),
         hinge=planar.Revolute(phi=start(amplitude - np.pi / 2, fixed=True), w=start(0.0, fixed=True)),
         bob=planar.Body(m=m, I=inertia),
     )  # fmt: skip
@@ -55,7 +56,7 @@ def test_pendulum_swings_as_the_elliptic_functions_say() -> None:
     angle = 2 * np.arcsin(k * ellipj(ellipk(k**2) - frequency * t, k**2)[0])
     assert len(solution.system.states) == 2
     assert_allclose(solution["hinge.phi"] + np.pi / 2, angle, atol=1e-7)
-    assert_allclose(solution["bob.r_x"], 3.0 + length * np.sin(angle), atol=1e-7)
+    assert_allclose(solution["bob.r[1]"], 3.0 + length * np.sin(angle), atol=1e-7)
 
 
 def test_double_pendulum() -> None:
@@ -65,7 +66,7 @@ def test_double_pendulum() -> None:
         "two.frame_b - lower.frame_a", "lower.frame_b - second.frame_a", planarWorld=inner(planar.PlanarWorld()),
         wall=planar.Fixed(), one=planar.Revolute(phi=start(0.3, fixed=True), w=start(0.0, fixed=True)),
         two=planar.Revolute(phi=start(0.5, fixed=True), w=start(1.0, fixed=True)),
-        upper=planar.FixedTranslation(r_x=l1), lower=planar.FixedTranslation(r_x=l2),
+        upper=planar.FixedTranslation(r=(l1, 0.0)), lower=planar.FixedTranslation(r=(l2, 0.0)),
         first=planar.PointMass(m=m1), second=planar.PointMass(m=m2),
     )  # fmt: skip
 
@@ -97,7 +98,7 @@ def test_pendulum_on_a_cart() -> None:
         wall=planar.Fixed(), rail=planar.Prismatic(s=start(1.2, fixed=True), v=start(0.0, fixed=True)),
         spring=planar.Spring(c=c, s_unstretched=rest), cart=planar.PointMass(m=cart), bob=planar.PointMass(m=bob),
         hinge=planar.Revolute(phi=start(-1.0, fixed=True), w=start(0.0, fixed=True)),
-        rod=planar.FixedTranslation(r_x=length),
+        rod=planar.FixedTranslation(r=(length, 0.0)),
     )  # fmt: skip
 
     def rate(_: float, z: np.ndarray) -> list[float]:
@@ -121,8 +122,8 @@ def slider_crank(**parts: Component) -> Component:
         "wall.frame - crank_joint.frame_a - guide.frame_a", "crank_joint.frame_b - crank.frame_a - wheel.frame_a",
         "crank.frame_b - pin.frame_a", "pin.frame_b - rod.frame_a", "rod.frame_b - wrist.frame_a",
         "wrist.frame_b - guide.frame_b - piston.frame_a", *extra, planarWorld=inner(planar.PlanarWorld()),
-        wall=planar.Fixed(), crank=planar.FixedTranslation(r_x=0.3), wheel=planar.Body(m=0.0, I=1.0),
-        rod=planar.FixedTranslation(r_x=1.0), pin=planar.Revolute(), wrist=planar.Revolute(),
+        wall=planar.Fixed(), crank=planar.FixedTranslation(r=(0.3, 0.0)), wheel=planar.Body(m=0.0, I=1.0),
+        rod=planar.FixedTranslation(r=(1.0, 0.0)), pin=planar.Revolute(), wrist=planar.Revolute(),
         guide=planar.Prismatic(s=start(1.2)), piston=planar.Body(m=2.0, I=0.2), **parts,
     )  # fmt: skip
 
@@ -149,7 +150,8 @@ def energy_at_start() -> float:
 def test_driven_slider_crank() -> None:
     """At constant speed no state is left; the torque of the drive is the power of the piston by that speed."""
     drive = rotational.Speed(exact=True, phi=start(0.3, fixed=True))
-    model = ac.modify(slider_crank(drive=drive, crank_joint=planar.Revolute(useFlange=True)), {"planarWorld.g_y": 0.0})
+    crank = slider_crank(drive=drive, crank_joint=planar.Revolute(useFlange=True))
+    model = ac.modify(crank, {"planarWorld.constantGravity[2]": 0.0})
 
     class Driven(Component):
         mechanism: Component = model
@@ -173,8 +175,8 @@ def four_bar(last: Component) -> Component:
         "left.frame - a.frame_a", "a.frame_b - crank.frame_a", "crank.frame_b - b.frame_a - one.frame_a",
         "b.frame_b - coupler.frame_a", "coupler.frame_b - c.frame_a - two.frame_a", "c.frame_b - rocker.frame_a",
         "rocker.frame_b - d.frame_a", "d.frame_b - right.frame", planarWorld=inner(planar.PlanarWorld()),
-        left=planar.Fixed(), right=planar.Fixed(r_x=2.0), crank=planar.FixedTranslation(r_x=1.0),
-        coupler=planar.FixedTranslation(r_x=2.0), rocker=planar.FixedTranslation(r_x=1.5),
+        left=planar.Fixed(), right=planar.Fixed(r=(2.0, 0.0)), crank=planar.FixedTranslation(r=(1.0, 0.0)),
+        coupler=planar.FixedTranslation(r=(2.0, 0.0)), rocker=planar.FixedTranslation(r=(1.5, 0.0)),
         a=planar.Revolute(phi=start(1.0, fixed=True), w=start(0.0, fixed=True)), b=planar.Revolute(phi=start(-1.0)),
         c=planar.Revolute(phi=start(-1.0)), d=last, one=planar.Body(I=0.1), two=planar.Body(I=0.1),
     )  # fmt: skip
@@ -187,9 +189,9 @@ def test_four_bar_linkage(engine: str) -> None:
     solution = system.simulate(t1=5.0, saveat=t, rtol=1e-9, engine=engine)  # type: ignore[arg-type]
     kept = energy(solution, one=(1.0, 0.1), two=(1.0, 0.1))
     assert_allclose(kept, kept[0], rtol=1e-7)
-    x, y = np.asarray(solution["two.r_x"]), np.asarray(solution["two.r_y"])
+    x, y = np.asarray(solution["two.r[1]"]), np.asarray(solution["two.r[2]"])
     assert_allclose((x - 2.0) ** 2 + y**2, 1.5**2, atol=1e-9)
-    assert_allclose((x - solution["one.r_x"]) ** 2 + (y - solution["one.r_y"]) ** 2, 4.0, atol=1e-9)
+    assert_allclose((x - solution["one.r[1]"]) ** 2 + (y - solution["one.r[2]"]) ** 2, 4.0, atol=1e-9)
     assert np.ptp(solution["a.phi"]) > np.pi
 
 
@@ -205,7 +207,7 @@ def test_gradient_through_a_loop() -> None:
     system = ac.compile(four_bar(planar.Revolute()))
 
     def angle(length: Any) -> Any:
-        return system.simulate(2.0, parameters={"coupler.r_x": length}, saveat=2, rtol=1e-9, engine="native")["a.phi"][
+        return system.simulate(2.0, parameters={"coupler.r[1]": length}, saveat=2, rtol=1e-9, engine="native")["a.phi"][
             -1
         ]
 
@@ -240,8 +242,8 @@ def test_line_force_of_one_dimensional_parts() -> None:
         model = assemble(
             "wall.frame - element.frame_a", "element.frame_b - bob.frame_a", *more, element=element,
             planarWorld=inner(planar.PlanarWorld()), wall=planar.Fixed(), bob=planar.Body(
-                m=2.0, r_x=start(0.8, fixed=True), r_y=start(-0.6, fixed=True), v_x=start(0.0, fixed=True),
-                v_y=start(1.0, fixed=True), phi=start(0.0, fixed=True), w=start(0.0, fixed=True)), **parts,
+                m=2.0, r=start((0.8, -0.6), fixed=True), v=start((0.0, 1.0), fixed=True),
+                phi=start(0.0, fixed=True), w=start(0.0, fixed=True)), **parts,
         )  # fmt: skip
         return simulate(model, np.linspace(0.0, 2.0, 21))
 
@@ -250,7 +252,7 @@ def test_line_force_of_one_dimensional_parts() -> None:
         planar.LineForce(useFlange_a=True), "element.flange_a - damper.flange_a", "damper.flange_b - element.flange_b",
         damper=translational.SpringDamper(c=50.0, d=1.5, s_rel0=0.9),
     )  # fmt: skip
-    for name in ("bob.r_x", "bob.r_y", "wall.frame.fx", "wall.frame.fy"):
+    for name in ("bob.r[1]", "bob.r[2]", "wall.frame.fx", "wall.frame.fy"):
         assert_allclose(line[name], direct[name], atol=1e-7)
 
 
@@ -259,23 +261,24 @@ def test_springs_keep_momentum_and_angular_momentum() -> None:
 
     def body(x: float, v: float) -> planar.Body:
         return planar.Body(
-            m=2.0, I=0.3, r_x=start(x, fixed=True), r_y=start(0.2 * x, fixed=True), v_x=start(0.1, fixed=True),
-            v_y=start(v, fixed=True), phi=start(x, fixed=True), w=start(v, fixed=True),
+            m=2.0, I=0.3, r=start((x, 0.2 * x), fixed=True), v=start((0.1, v), fixed=True),
+            phi=start(x, fixed=True), w=start(v, fixed=True),
         )  # fmt: skip
 
     model = assemble(
         "one.frame_a - left.frame_a", "left.frame_b - spring.frame_a", "two.frame_a - right.frame_a",
-        "right.frame_b - spring.frame_b", planarWorld=inner(planar.PlanarWorld(g_y=0.0)), one=body(0.0, 1.0),
-        two=body(2.0, -0.5), left=planar.FixedTranslation(r_x=0.2, r_y=0.3), right=planar.FixedTranslation(r_x=-0.4),
+        "right.frame_b - spring.frame_b", one=body(0.0, 1.0),
+        planarWorld=inner(planar.PlanarWorld(constantGravity=(0.0, 0.0))),
+        two=body(2.0, -0.5), left=planar.FixedTranslation(r=(0.2, 0.3)), right=planar.FixedTranslation(r=(-0.4, 0.0)),
         spring=planar.SpringDamper(c=30.0, d=0.5, s_unstretched=1.0),
     )  # fmt: skip
     solution = simulate(model, np.linspace(0.0, 3.0, 31))
     spin = np.zeros(31)
     for name in ("one", "two"):
-        r_x, r_y, v_x, v_y, w = (np.asarray(solution[f"{name}.{v}"]) for v in ("r_x", "r_y", "v_x", "v_y", "w"))
+        r_x, r_y, v_x, v_y, w = (np.asarray(solution[f"{name}.{v}"]) for v in ("r[1]", "r[2]", "v[1]", "v[2]", "w"))
         spin += 2.0 * (r_x * v_y - r_y * v_x) + 0.3 * w
-    assert_allclose(solution["one.v_x"] + solution["two.v_x"], 0.2, atol=1e-8)
-    assert_allclose(solution["one.v_y"] + solution["two.v_y"], 0.5, atol=1e-8)
+    assert_allclose(solution["one.v[1]"] + solution["two.v[1]"], 0.2, atol=1e-8)
+    assert_allclose(solution["one.v[2]"] + solution["two.v[2]"], 0.5, atol=1e-8)
     assert_allclose(spin, spin[0], atol=1e-7)
 
 
@@ -305,9 +308,9 @@ class Parts(Mechanism):
     planarWorld: planar.PlanarWorld = inner(planar.PlanarWorld())
     wall: planar.Fixed = planar.Fixed()
     hinge: planar.Revolute = planar.Revolute(phi=start(Mechanism.phi_start, fixed=True))
-    to_foot: planar.FixedTranslation = planar.FixedTranslation(r_x=2.0 * np.sin(0.2), r_y=-2.0 * np.cos(0.2))
-    to_eye: planar.FixedTranslation = planar.FixedTranslation(r_x=3.0 * np.cos(0.3), r_y=-3.0 * np.sin(0.3))
-    to_load: planar.FixedTranslation = planar.FixedTranslation(r_x=8.0)
+    to_foot: planar.FixedTranslation = planar.FixedTranslation(r=(2.0 * np.sin(0.2), -2.0 * np.cos(0.2)))
+    to_eye: planar.FixedTranslation = planar.FixedTranslation(r=(3.0 * np.cos(0.3), -3.0 * np.sin(0.3)))
+    to_load: planar.FixedTranslation = planar.FixedTranslation(r=(8.0, 0.0))
     load: planar.Body = planar.Body(m=11000.0, I=1.008e6 - 11000.0 * 8.0**2)
     line: planar.LineForce = planar.LineForce(s0=2.6, s=start(3.6))
 
@@ -356,10 +359,11 @@ def test_car_turns_in_a_circle() -> None:
     model = assemble(
         "car.frame_a - to_rear.frame_a - to_front.frame_a", "to_rear.frame_b - rear.frame_a",
         "to_front.frame_b - steer.frame_a", "steer.frame_b - front.frame_a",
-        planarWorld=inner(planar.PlanarWorld(g_y=0.0)), to_rear=planar.FixedTranslation(r_x=-1.2),
-        to_front=planar.FixedTranslation(r_x=1.0), steer=planar.FixedRotation(alpha=0.4),
+        planarWorld=inner(planar.PlanarWorld(constantGravity=(0.0, 0.0))),
+        to_rear=planar.FixedTranslation(r=(-1.2, 0.0)),
+        to_front=planar.FixedTranslation(r=(1.0, 0.0)), steer=planar.FixedRotation(alpha=0.4),
         car=planar.Body(
-            m=800.0, I=1000.0, r_x=start(0.0, fixed=True), r_y=start(0.0, fixed=True), phi=start(0.3, fixed=True)
+            m=800.0, I=1000.0, r=start((0.0, 0.0), fixed=True), phi=start(0.3, fixed=True)
         ),
         rear=planar.IdealWheelJoint(radius=0.3, w_roll=start(20.0, fixed=True)),
         front=planar.IdealWheelJoint(radius=0.3),

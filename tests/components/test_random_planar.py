@@ -53,21 +53,19 @@ def tree(seed: int) -> list[Link]:
 
 def model(links: list[Link]) -> Component:
     """The tree of library components; a spring from the wall to the last body."""
-    parts: dict[str, Component] = {"wall": planar.Fixed(r_x=0.1), "spring": planar.Spring(c=5.0, s_unstretched=0.5)}
+    parts: dict[str, Component] = {"wall": planar.Fixed(r=(0.1, 0.0))}
+    parts["spring"] = planar.Spring(c=5.0, s_unstretched=0.5)
     connections = ["wall.frame - spring.frame_a", f"body{len(links) - 1}.frame_a - spring.frame_b"]
     for k, link in enumerate(links):
         q, v = start(link.q, fixed=True), start(link.v, fixed=True)
-        r_x, r_y = link.r
-        parts[f"joint{k}"] = (
-            planar.Prismatic(r_x=r_x, r_y=r_y, s=q, v=v) if link.slides else planar.Revolute(phi=q, w=v)
-        )
-        parts[f"rod{k}"] = planar.FixedTranslation(r_x=r_x, r_y=r_y)
+        parts[f"joint{k}"] = planar.Prismatic(r=link.r, s=q, v=v) if link.slides else planar.Revolute(phi=q, w=v)
+        parts[f"rod{k}"] = planar.FixedTranslation(r=link.r)
         parts[f"body{k}"] = planar.Body(m=link.m, I=link.inertia)
         below = "wall.frame" if link.on < 0 else f"rod{link.on}.frame_b"
         connections += [
             f"{below} - joint{k}.frame_a", f"joint{k}.frame_b - rod{k}.frame_a", f"rod{k}.frame_b - body{k}.frame_a"
         ]  # fmt: skip
-    world = inner(planar.PlanarWorld(g_x=GRAVITY[0], g_y=GRAVITY[1]))
+    world = inner(planar.PlanarWorld(constantGravity=GRAVITY))
     return assemble(*connections, planarWorld=world, **parts)
 
 

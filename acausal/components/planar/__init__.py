@@ -1,8 +1,8 @@
 """Planar mechanics: frames, bodies, joints, forces and sensors, and the boom of a crane with its cylinder.
 
-Names are those of the open library PlanarMechanics; its vectors ``r``, ``v``, ``a`` are `r_x` and `r_y`, and so on. A
-model declares its world once, ``planarWorld: PlanarWorld = inner(PlanarWorld())``. Loops of bodies and joints are
-closed as they are: the compiler finds what coordinates describe the motion.
+Names are those of the open library PlanarMechanics, of the forces between two frames those of MultiBody. A model
+declares its world once, ``planarWorld: PlanarWorld = inner(PlanarWorld())``. Loops of bodies and joints are closed as
+they are: the compiler finds what coordinates describe the motion.
 """
 
 from .boom import Boom as Boom
@@ -24,6 +24,8 @@ from .interfaces import PartialMass as PartialMass
 from .interfaces import PartialRelativeSensor as PartialRelativeSensor
 from .interfaces import PartialTwoFrames as PartialTwoFrames
 from .interfaces import PlanarWorld as PlanarWorld
+from .interfaces import between as between
+from .interfaces import resolve1 as resolve1
 from .joints import PartialPrismatic as PartialPrismatic
 from .joints import Prismatic as Prismatic
 from .joints import PrismaticConstraint as PrismaticConstraint

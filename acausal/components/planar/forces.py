@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Component, Equations, Input, Parameter, conditional
+from acausal import Component, Equations, Input, Parameter, Vector, conditional, vector
 
 from .. import translational
 from .interfaces import Frame, PartialCompliant, PartialLineForce
@@ -12,7 +12,7 @@ class Spring(PartialLineForce):
     """Spring between two frames, ``f = c (s - s_unstretched)``.
 
     >>> model = assemble("left.frame - spring.frame_a", "spring.frame_b - right.frame", left=Fixed(),
-    ...                  spring=Spring(c=10.0, s_unstretched=3.0), right=Fixed(r_x=3.0, r_y=4.0))
+    ...                  spring=Spring(c=10.0, s_unstretched=3.0), right=Fixed(r=(3.0, 4.0)))
     >>> close([run(model)[f"spring.frame_b.{n}"][-1] for n in ("fx", "fy")], [20.0 * 0.6, 20.0 * 0.8])
     True
 
@@ -97,18 +97,20 @@ class LineForce(PartialLineForce):
     def reaction(self) -> Equations:
         if self.useFlange_a:
             yield self.flange_a.s == 0
-            yield self.frame_a.fx == -self.e_x * self.flange_a.f
-            yield self.frame_a.fy == -self.e_y * self.flange_a.f
+            yield vector(self.frame_a.fx, self.frame_a.fy) == -self.e * self.flange_a.f
         else:
             yield from super().reaction()
 
 
 class WorldForce(Component):
-    """Force and torque on a frame, given by signals and resolved in the world frame.
+    """Force in x and y and torque on a frame, the signals `force`, resolved in the world frame.
 
-    >>> model = assemble("wall.frame - rod.frame_a", "rod.frame_b - push.frame_b", "force.y - push.force_y",
-    ...                  "zero.y - push.force_x - push.torque", wall=Fixed(), rod=FixedTranslation(r_x=2.0),
-    ...                  push=WorldForce(), force=blocks.Constant(k=5.0), zero=blocks.Constant(k=0.0))
+    >>> class Push(WorldForce):
+    ...     def equations(self):
+    ...         yield from super().equations()
+    ...         yield self.force == (0.0, 5.0, 0.0)
+    >>> model = assemble("wall.frame - rod.frame_a", "rod.frame_b - push.frame_b", wall=Fixed(), push=Push(),
+    ...                  rod=FixedTranslation(r=(2.0, 0.0)))
     >>> run(model)["wall.frame.t"][-1]  # what the rod does to the wall
     10.0
 
@@ -116,12 +118,8 @@ class WorldForce(Component):
     """
 
     frame_b: Frame = Frame()
-    force_x: Input = Input(unit="N", doc="force in x")
-    force_y: Input = Input(unit="N", doc="force in y")
-    torque: Input = Input(unit="N*m", doc="torque against the clock")
+    force: Vector = Vector(Input(doc="forces in x and y [N], and torque [N.m]"))
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.frame_b.fx == -self.force_x
-        yield self.frame_b.fy == -self.force_y
-        yield self.frame_b.t == -self.torque
+        yield vector(self.frame_b.fx, self.frame_b.fy, self.frame_b.t) == -self.force

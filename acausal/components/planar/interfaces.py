@@ -2,7 +2,24 @@
 
 from __future__ import annotations
 
-from acausal import Component, Connector, Equations, Expr, Flow, Parameter, Potential, Variable, der, outer, sqrt
+from acausal import (
+    Component,
+    Connector,
+    Equations,
+    Flow,
+    Parameter,
+    Potential,
+    Variable,
+    Vector,
+    cos,
+    der,
+    noevent,
+    norm,
+    outer,
+    sin,
+    vector,
+)
+from acausal import max as maximum
 
 
 class Frame(Connector):
@@ -19,20 +36,30 @@ class Frame(Connector):
     t: Flow = Flow(unit="N*m", doc="cut torque acting on the component")
 
 
-class PlanarWorld(Component):
-    """Uniform gravity ``(g_x, g_y)``; shared by declaring one ``inner`` and reading it as ``outer``.
+def resolve1(frame: Frame, r: Vector) -> Vector:
+    """A vector `r` of a frame, in the world frame."""
+    c, s = cos(frame.phi), sin(frame.phi)
+    return vector(c * r[0] - s * r[1], s * r[0] + c * r[1])
 
-    >>> stone = Body(r_x=start(0.0, fixed=True), v_x=start(1.0, fixed=True), r_y=start(0.0, fixed=True),
-    ...              v_y=start(2.0, fixed=True), phi=start(0.0, fixed=True), w=start(0.0, fixed=True))
-    >>> model = assemble(planarWorld=ac.inner(PlanarWorld(g_y=-1.62)), stone=stone)
-    >>> close(run(model, at=[0.5, 1.0])["stone.r_y"], [2.0 * 0.5 - 0.81 * 0.25, 2.0 - 0.81])
+
+def between(frame_a: Frame, frame_b: Frame) -> Vector:
+    """From the origin of frame a to that of frame b, in the world frame [m]."""
+    return vector(frame_b.x - frame_a.x, frame_b.y - frame_a.y)
+
+
+class PlanarWorld(Component):
+    """Uniform gravity `constantGravity`; shared by declaring one ``inner`` and reading it as ``outer``.
+
+    >>> stone = Body(r=start((0.0, 0.0), fixed=True), v=start((1.0, 2.0), fixed=True), phi=start(0.0, fixed=True),
+    ...              w=start(0.0, fixed=True))
+    >>> model = assemble(planarWorld=ac.inner(PlanarWorld(constantGravity=(0.0, -1.62))), stone=stone)
+    >>> close(run(model, at=[0.5, 1.0])["stone.r[2]"], [2.0 * 0.5 - 0.81 * 0.25, 2.0 - 0.81])
     True
 
     Source: PlanarMechanics.PlanarWorld.
     """
 
-    g_x: Parameter = Parameter(0.0, unit="m/s2", doc="acceleration of gravity in x")
-    g_y: Parameter = Parameter(-9.81, unit="m/s2", doc="acceleration of gravity in y")
+    constantGravity: Vector = Vector(Parameter(unit="m/s2", doc="acceleration of gravity"), (0.0, -9.81), size=2)
 
 
 class PartialTwoFrames(Component, partial=True):
@@ -44,11 +71,12 @@ class PartialTwoFrames(Component, partial=True):
     frame_a: Frame = Frame()
     frame_b: Frame = Frame()
 
-    def held_together(self, r_x: Expr | float = 0.0, r_y: Expr | float = 0.0) -> Equations:
-        """Equations of positions and cut forces, where frame b is at ``(r_x, r_y)`` [m] from a, in the world frame.
+    def held_together(self, r: Vector | None = None) -> Equations:
+        """Equations of positions and cut forces, where frame b is `r` [m] away from a, in the world frame.
 
         The torques of both frames and of the force at b with that lever are in balance, as nothing here has a mass.
         """
+        r_x, r_y = r or (0.0, 0.0)
         yield self.frame_a.x + r_x == self.frame_b.x
         yield self.frame_a.y + r_y == self.frame_b.y
         yield self.frame_a.fx + self.frame_b.fx == 0
@@ -65,54 +93,45 @@ class PartialMass(Component, partial=True):
     frame_a: Frame = Frame()
     planarWorld: PlanarWorld = outer(PlanarWorld())
     m: Parameter = Parameter(1.0, unit="kg", min=0.0, doc="mass")
-    r_x: Variable = Variable(unit="m", doc="x position")
-    r_y: Variable = Variable(unit="m", doc="y position")
-    v_x: Variable = Variable(unit="m/s", doc="velocity in x")
-    v_y: Variable = Variable(unit="m/s", doc="velocity in y")
-    a_x: Variable = Variable(unit="m/s2", doc="acceleration in x")
-    a_y: Variable = Variable(unit="m/s2", doc="acceleration in y")
+    r: Vector = Vector(Variable(unit="m", doc="position"), size=2)
+    v: Vector = Vector(Variable(unit="m/s", doc="velocity"), size=2)
+    a: Vector = Vector(Variable(unit="m/s2", doc="acceleration"), size=2)
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.r_x == self.frame_a.x
-        yield self.r_y == self.frame_a.y
-        yield self.v_x == der(self.r_x)
-        yield self.v_y == der(self.r_y)
-        yield self.a_x == der(self.v_x)
-        yield self.a_y == der(self.v_y)
-        yield self.m * self.a_x == self.frame_a.fx + self.m * self.planarWorld.g_x
-        yield self.m * self.a_y == self.frame_a.fy + self.m * self.planarWorld.g_y
+        frame = self.frame_a
+        yield self.r == (frame.x, frame.y)
+        yield self.v == der(self.r)
+        yield self.a == der(self.v)
+        yield self.a * self.m == vector(frame.fx, frame.fy) + self.planarWorld.constantGravity * self.m
 
 
 class PartialLineForce(PartialTwoFrames, partial=True):
     """Force along the line between the origins of two frames, with `s` their distance; subclasses give `f`.
 
-    `f` is positive when it pulls the frames together. The line has no direction where the frames meet.
+    `f` is positive when it pulls the frames together. Closer than `s_small`, the direction fades.
 
     Source: Modelica.Mechanics.MultiBody.Forces.LineForceWithMass, in the plane.
     """
 
+    s_small: Parameter = Parameter(1e-10, unit="m", min=0.0, doc="distance below which the line has no direction")
     s: Variable = Variable(unit="m", start=1.0, doc="distance of the frames")
     f: Variable = Variable(unit="N", doc="force that pulls the frames together")
-    e_x: Variable = Variable(unit="1", doc="direction from frame a to frame b, x")
-    e_y: Variable = Variable(unit="1", doc="direction from frame a to frame b, y")
+    e: Vector = Vector(Variable(unit="1", doc="direction from frame a to frame b"), size=2)
 
     def equations(self) -> Equations:
         yield from super().equations()
-        r_x, r_y = self.frame_b.x - self.frame_a.x, self.frame_b.y - self.frame_a.y
-        yield self.s == sqrt(r_x**2 + r_y**2)
-        yield self.e_x == r_x / self.s
-        yield self.e_y == r_y / self.s
-        yield self.frame_b.fx == self.e_x * self.f
-        yield self.frame_b.fy == self.e_y * self.f
+        r = between(self.frame_a, self.frame_b)
+        yield self.s == norm(r)
+        yield self.e == r / noevent(maximum(self.s, self.s_small))
+        yield vector(self.frame_b.fx, self.frame_b.fy) == self.e * self.f
         yield self.frame_a.t == 0
         yield self.frame_b.t == 0
         yield from self.reaction()
 
     def reaction(self) -> Equations:
         """Equations of the force at frame a: what the line has no mass for goes from one frame to the other."""
-        yield self.frame_a.fx == -self.e_x * self.f
-        yield self.frame_a.fy == -self.e_y * self.f
+        yield vector(self.frame_a.fx, self.frame_a.fy) == -self.e * self.f
 
 
 class PartialCompliant(PartialLineForce, partial=True):

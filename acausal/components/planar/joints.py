@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from acausal import Equations, Expr, Parameter, Variable, conditional, cos, der, sin, sqrt
+from acausal import Equations, Parameter, Variable, Vector, conditional, der, dot, norm, vector
 
 from .. import rotational, translational
-from .interfaces import PartialTwoFrames
+from .interfaces import PartialTwoFrames, between, resolve1
 
 
 class Revolute(PartialTwoFrames):
@@ -48,31 +48,29 @@ class Revolute(PartialTwoFrames):
 
 
 class PartialPrismatic(PartialTwoFrames, partial=True):
-    """Frame b slides on a line through frame a in the direction ``(r_x, r_y)`` of frame a, turned as frame a.
+    """Frame b slides on a line through frame a in the direction `r` of frame a, turned as frame a.
 
     Source: PlanarMechanics.Joints.Prismatic.
     """
 
-    r_x: Parameter = Parameter(1.0, unit="m", doc="direction of sliding in frame a, x")
-    r_y: Parameter = Parameter(0.0, unit="m", doc="direction of sliding in frame a, y; any length but zero")
+    r: Vector = Vector(
+        Parameter(unit="m", doc="direction of sliding in frame a, of any length but zero"), (1.0, 0.0), size=2
+    )
 
-    def direction(self) -> tuple[Expr, Expr]:
+    def direction(self) -> Vector:
         """Direction of sliding in the world frame, of length 1."""
-        length = sqrt(self.r_x**2 + self.r_y**2)
-        e_x, e_y = self.r_x / length, self.r_y / length
-        c, s = cos(self.frame_a.phi), sin(self.frame_a.phi)
-        return c * e_x - s * e_y, s * e_x + c * e_y
+        return resolve1(self.frame_a, self.r / norm(self.r))
 
 
 class Prismatic(PartialPrismatic):
-    """Frame b slides by `s` in the direction ``(r_x, r_y)`` of frame a: ``v = ds/dt``, ``a = dv/dt``.
+    """Frame b slides by `s` in the direction `r` of frame a: ``v = ds/dt``, ``a = dv/dt``.
 
     `f` is the force that drives frame b: zero, or that of `flange_a` with `useFlange`; `support` is the housing of the
     drive, which stands still.
 
     >>> model = assemble("wall.frame - slope.frame_a", "slope.frame_b - load.frame_a", wall=Fixed(phi=-np.pi / 6),
     ...                  slope=Prismatic(s=start(0.0, fixed=True), v=start(0.0, fixed=True)), load=PointMass(m=3.0),
-    ...                  planarWorld=ac.inner(PlanarWorld(g_y=-10.0)))
+    ...                  planarWorld=ac.inner(PlanarWorld(constantGravity=(0.0, -10.0))))
     >>> close(run(model, at=[0.0, 2.0])["slope.s"][-1], 0.5 * 10.0 * 0.5 * 2.0**2)
     True
 
@@ -89,12 +87,12 @@ class Prismatic(PartialPrismatic):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        e_x, e_y = self.direction()
+        e = self.direction()
         yield self.v == der(self.s)
         yield self.a == der(self.v)
         yield self.frame_a.phi == self.frame_b.phi
-        yield from self.held_together(e_x * self.s, e_y * self.s)
-        yield self.frame_a.fx * e_x + self.frame_a.fy * e_y == self.f
+        yield from self.held_together(e * self.s)
+        yield dot((self.frame_a.fx, self.frame_a.fy), e) == self.f
         if self.useFlange:
             yield self.flange_a.s == self.s
             yield self.flange_a.f == self.f
@@ -129,9 +127,9 @@ class PrismaticConstraint(PartialPrismatic):
     A prismatic joint without a coordinate of its own, for a loop that others' coordinates describe.
 
     >>> model = assemble("wall.frame - slope.frame_a", "slope.frame_b - load.frame_a", wall=Fixed(phi=-np.pi / 6),
-    ...                  slope=PrismaticConstraint(), planarWorld=ac.inner(PlanarWorld(g_y=-10.0)),
-    ...                  load=PointMass(m=3.0, r_x=start(0.0, fixed=True), v_x=start(0.0, fixed=True)))
-    >>> close(run(model, at=[0.0, 2.0])["load.r_x"][-1], 0.5 * 10.0 * 0.5 * 2.0**2 * np.cos(np.pi / 6))
+    ...                  slope=PrismaticConstraint(), planarWorld=ac.inner(PlanarWorld(constantGravity=(0.0, -10.0))),
+    ...                  load=PointMass(m=3.0, r=start((0.0, 0.0)), v=start((0.0, 0.0))))
+    >>> close(run(model, at=[0.0, 2.0])["load.r[1]"][-1], 0.5 * 10.0 * 0.5 * 2.0**2 * np.cos(np.pi / 6))
     True
 
     Source: Modelica.Mechanics.MultiBody.Joints.Constraints.Prismatic, in the plane.
@@ -139,11 +137,10 @@ class PrismaticConstraint(PartialPrismatic):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        e_x, e_y = self.direction()
-        r_x, r_y = self.frame_b.x - self.frame_a.x, self.frame_b.y - self.frame_a.y
+        e, r = self.direction(), between(self.frame_a, self.frame_b)
+        f_a, f_b = vector(self.frame_a.fx, self.frame_a.fy), vector(self.frame_b.fx, self.frame_b.fy)
         yield self.frame_a.phi == self.frame_b.phi
-        yield r_x * e_y == r_y * e_x
-        yield self.frame_a.fx + self.frame_b.fx == 0
-        yield self.frame_a.fy + self.frame_b.fy == 0
-        yield self.frame_a.fx * e_x + self.frame_a.fy * e_y == 0
-        yield self.frame_a.t + self.frame_b.t + r_x * self.frame_b.fy - r_y * self.frame_b.fx == 0
+        yield r[0] * e[1] == r[1] * e[0]
+        yield f_a + f_b == (0.0, 0.0)
+        yield dot(f_a, e) == 0
+        yield self.frame_a.t + self.frame_b.t + r[0] * f_b[1] - r[1] * f_b[0] == 0

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from acausal import Component, Equations, Parameter, Variable, cos, der, sin
+from acausal import Component, Equations, Parameter, Variable, Vector, der
 
-from .interfaces import Frame, PartialMass, PartialTwoFrames
+from .interfaces import Frame, PartialMass, PartialTwoFrames, resolve1
 
 
 class Fixed(Component):
-    """Frame fixed in the world at ``(r_x, r_y)``, turned by `phi`.
+    """Frame fixed in the world at `r`, turned by `phi`.
 
-    >>> model = assemble("wall.frame - rod.frame_a", wall=Fixed(r_x=1.0, phi=0.5), rod=FixedTranslation(r_x=2.0))
+    >>> model = assemble("wall.frame - rod.frame_a", wall=Fixed(r=(1.0, 0.0), phi=0.5),
+    ...                  rod=FixedTranslation(r=(2.0, 0.0)))
     >>> close(run(model)["rod.frame_b.y"][-1], 2.0 * np.sin(0.5))
     True
 
@@ -18,36 +19,33 @@ class Fixed(Component):
     """
 
     frame: Frame = Frame()
-    r_x: Parameter = Parameter(0.0, unit="m", doc="x position")
-    r_y: Parameter = Parameter(0.0, unit="m", doc="y position")
+    r: Vector = Vector(Parameter(unit="m", doc="position"), (0.0, 0.0), size=2)
     phi: Parameter = Parameter(0.0, unit="rad", doc="angle")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.frame.x == self.r_x
-        yield self.frame.y == self.r_y
+        yield self.r == (self.frame.x, self.frame.y)
         yield self.frame.phi == self.phi
 
 
 class FixedTranslation(PartialTwoFrames):
-    """Rigid rod without mass: frame b is at ``(r_x, r_y)`` in frame a, turned as frame a.
+    """Rigid rod without mass: frame b is at `r` in frame a, turned as frame a.
 
     >>> model = assemble("wall.frame - rod.frame_a", "rod.frame_b - load.frame_a", wall=Fixed(),
-    ...                  rod=FixedTranslation(r_x=2.0), load=Body(m=3.0), planarWorld=ac.inner(PlanarWorld(g_y=-10.0)))
+    ...                  rod=FixedTranslation(r=(2.0, 0.0)), load=Body(m=3.0),
+    ...                  planarWorld=ac.inner(PlanarWorld(constantGravity=(0.0, -10.0))))
     >>> run(model)["rod.frame_a.t"][-1]  # the wall holds the moment of the weight
     60.0
 
     Source: PlanarMechanics.Parts.FixedTranslation.
     """
 
-    r_x: Parameter = Parameter(1.0, unit="m", doc="position of frame b in frame a, x")
-    r_y: Parameter = Parameter(0.0, unit="m", doc="position of frame b in frame a, y")
+    r: Vector = Vector(Parameter(unit="m", doc="position of frame b in frame a"), (1.0, 0.0), size=2)
 
     def equations(self) -> Equations:
         yield from super().equations()
-        c, s = cos(self.frame_a.phi), sin(self.frame_a.phi)
         yield self.frame_a.phi == self.frame_b.phi
-        yield from self.held_together(c * self.r_x - s * self.r_y, s * self.r_x + c * self.r_y)
+        yield from self.held_together(resolve1(self.frame_a, self.r))
 
 
 class FixedRotation(PartialTwoFrames):
@@ -71,14 +69,11 @@ class FixedRotation(PartialTwoFrames):
 class Body(PartialMass):
     """Rigid body with its centre of gravity in the frame's origin: ``frame_a.f + m g = m a``, ``frame_a.t = I z``.
 
-    >>> model = assemble("torque.y - drive.torque", "zero.y - drive.force_x - drive.force_y",
-    ...                  "drive.frame_b - disc.frame_a", torque=blocks.Constant(k=3.0), zero=blocks.Constant(k=0.0),
-    ...                  drive=WorldForce(), planarWorld=ac.inner(PlanarWorld()),
-    ...                  disc=Body(m=2.0, I=0.5, r_x=start(0.0, fixed=True), r_y=start(0.0, fixed=True),
-    ...                            v_x=start(1.0, fixed=True), v_y=start(4.0, fixed=True),
-    ...                            phi=start(0.0, fixed=True), w=start(1.0, fixed=True)))
-    >>> close(run(model, at=[0.5, 1.0])["disc.phi"], [0.5 + 0.75, 1.0 + 3.0])
-    True
+    >>> model = assemble(planarWorld=ac.inner(PlanarWorld()), stick=Body(m=2.0, I=0.5, r=start((0.0, 0.0), fixed=True),
+    ...                  v=start((1.0, 4.0), fixed=True), phi=start(0.0, fixed=True), w=start(3.0, fixed=True)))
+    >>> values = run(model, at=[0.5, 1.0])
+    >>> close(values["stick.phi"], [1.5, 3.0]), close(values["stick.r[2]"], [2.0 - 9.81 / 8, 4.0 - 9.81 / 2])
+    (True, True)
 
     Source: PlanarMechanics.Parts.Body.
     """
@@ -102,8 +97,8 @@ class PointMass(PartialMass):
     The angle of its frame comes from what holds it: a mass that hangs on springs alone is a `Body`.
 
     >>> model = assemble("wall.frame - rod.frame_a", "rod.frame_b - load.frame_a", wall=Fixed(phi=np.pi / 6),
-    ...                  rod=FixedTranslation(r_x=2.0), load=PointMass(m=3.0),
-    ...                  planarWorld=ac.inner(PlanarWorld(g_y=-10.0)))
+    ...                  rod=FixedTranslation(r=(2.0, 0.0)), load=PointMass(m=3.0),
+    ...                  planarWorld=ac.inner(PlanarWorld(constantGravity=(0.0, -10.0))))
     >>> close(run(model)["rod.frame_a.t"][-1], 3.0 * 10.0 * 2.0 * np.cos(np.pi / 6))
     True
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from acausal import Component, Equations, Parameter, Variable, cos, der, sin, sqrt
+from acausal import Component, Equations, Parameter, Variable, Vector, der, dot, norm
 
 from .. import rotational
-from .interfaces import Frame
+from .interfaces import Frame, resolve1
 
 
 class IdealRolling(Component):
@@ -13,10 +13,10 @@ class IdealRolling(Component):
 
     The ground holds it with whatever force that takes, in x by friction and in y either way.
 
-    >>> model = assemble("wheel.frame_a - disc.frame_a", planarWorld=ac.inner(PlanarWorld(g_x=3.0)),
-    ...                  wheel=IdealRolling(R=0.5), disc=Body(m=2.0, I=0.25, r_x=start(0.0, fixed=True),
-    ...                  v_x=start(0.0, fixed=True), phi=start(0.0, fixed=True)))
-    >>> close(run(model)["disc.r_x"][-1], 0.5 * 3.0 * 2.0 / (2.0 + 0.25 / 0.5**2))
+    >>> model = assemble("wheel.frame_a - disc.frame_a", planarWorld=ac.inner(PlanarWorld(constantGravity=(3.0, 0.0))),
+    ...                  wheel=IdealRolling(R=0.5), disc=Body(m=2.0, I=0.25, phi=start(0.0, fixed=True),
+    ...                  w=start(0.0, fixed=True), r=start((0.0, 0.5), fixed=True)))
+    >>> close(run(model)["disc.r[1]"][-1], 0.5 * 3.0 * 2.0 / (2.0 + 0.25 / 0.5**2))
     True
 
     Source: PlanarMechanics.Joints.IdealRolling.
@@ -35,15 +35,16 @@ class IdealRolling(Component):
 class IdealWheelJoint(Component):
     """A wheel seen from above, on a ground that is the plane: it rolls along its direction and does not slip sideways.
 
-    The direction is ``(r_x, r_y)`` in its frame; ``v_long = radius w_roll`` with the angular velocity of `flange_a`,
+    The direction is `r` in its frame; ``v_long = radius w_roll`` with the angular velocity of `flange_a`,
     whose torque drives it, ``flange_a.tau = -radius f_long``. The force across is whatever it takes.
 
     >>> model = assemble("drive.flange - wheel.flange_a", "wheel.frame_a - car.frame_a",
-    ...                  drive=rotational.ConstantTorque(tau_constant=1.5), planarWorld=ac.inner(PlanarWorld(g_y=0.0)),
+    ...                  drive=rotational.ConstantTorque(tau_constant=1.5),
     ...                  wheel=IdealWheelJoint(radius=0.25, w_roll=start(0.0, fixed=True)),
-    ...                  car=Body(m=3.0, I=1.0, r_x=start(0.0, fixed=True), r_y=start(0.0, fixed=True),
-    ...                           phi=start(0.5, fixed=True), w=start(0.0, fixed=True)))
-    >>> close(run(model)["car.r_x"][-1], 0.5 * 1.5 / 0.25 / 3.0 * np.cos(0.5))
+    ...                  planarWorld=ac.inner(PlanarWorld(constantGravity=(0.0, 0.0))),
+    ...                  car=Body(m=3.0, I=1.0, r=start((0.0, 0.0), fixed=True), phi=start(0.5, fixed=True),
+    ...                           w=start(0.0, fixed=True)))
+    >>> close(run(model)["car.r[1]"][-1], 0.5 * 1.5 / 0.25 / 3.0 * np.cos(0.5))
     True
 
     Source: PlanarMechanics.VehicleComponents.Wheels.IdealWheelJoint.
@@ -52,22 +53,21 @@ class IdealWheelJoint(Component):
     frame_a: Frame = Frame()
     flange_a: rotational.Flange = rotational.Flange()
     radius: Parameter = Parameter(0.3, unit="m", min=1e-30, doc="radius of the wheel")
-    r_x: Parameter = Parameter(1.0, unit="m", doc="driving direction in the frame, x")
-    r_y: Parameter = Parameter(0.0, unit="m", doc="driving direction in the frame, y; any length but zero")
+    r: Vector = Vector(
+        Parameter(unit="m", doc="driving direction in the frame, of any length but zero"), (1.0, 0.0), size=2
+    )
     w_roll: Variable = Variable(unit="rad/s", doc="angular velocity of rolling")
     v_long: Variable = Variable(unit="m/s", doc="velocity along the driving direction")
     f_long: Variable = Variable(unit="N", doc="force of the frame on the wheel along the driving direction")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        length = sqrt(self.r_x**2 + self.r_y**2)
-        c, s = cos(self.frame_a.phi), sin(self.frame_a.phi)
-        e_x, e_y = (c * self.r_x - s * self.r_y) / length, (s * self.r_x + c * self.r_y) / length
-        v_x, v_y = der(self.frame_a.x), der(self.frame_a.y)
+        e = resolve1(self.frame_a, self.r / norm(self.r))
+        v = (der(self.frame_a.x), der(self.frame_a.y))
         yield self.w_roll == der(self.flange_a.phi)
-        yield self.v_long == v_x * e_x + v_y * e_y
-        yield v_y * e_x == v_x * e_y
+        yield self.v_long == dot(v, e)
+        yield v[1] * e[0] == v[0] * e[1]
         yield self.v_long == self.radius * self.w_roll
-        yield self.f_long == self.frame_a.fx * e_x + self.frame_a.fy * e_y
+        yield self.f_long == dot((self.frame_a.fx, self.frame_a.fy), e)
         yield self.frame_a.t == 0
         yield self.flange_a.tau == -self.radius * self.f_long
