@@ -230,6 +230,7 @@ class _Run:
     def __init__(self, master: CoSimulation, t0: float) -> None:
         self.m = master
         self.interface = Interface(master.parts, master.names, master.couplings)
+        self.unfed = free_polynomials(master.parts)
         self.histories = [History(c.known) for c in master.couplings]
         self.largest = master.largest.copy()
         self.largest_power = 0.0
@@ -245,6 +246,8 @@ class _Run:
         """Consistent start of all participants: each is started with the others' outputs until nothing changes."""
         free = self.free(t0, self.m.step)
         z = np.zeros(self.interface.size)
+        for c in self.m.couplings:
+            z[c.place] = self.m.parts[c.target].start(self.m.parts[c.target].inputs[c.input])
         failure: InitializationError | None = None
         for _ in range(INITIAL_SWEEPS):
             before, failure = z.copy(), None
@@ -265,7 +268,7 @@ class _Run:
 
     def free(self, t: float, h: float) -> list[Floats]:
         """Polynomials of the inputs that are fed from outside, over a step."""
-        made = free_polynomials(self.m.parts)
+        made = [c.copy() for c in self.unfed]
         for (part, place), signal in self.m.inputs.items():
             if callable(signal):
                 s = (0.0, 0.5 * h, h)

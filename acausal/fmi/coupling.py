@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import ConnectError, UnknownNameError, nearest
-from .participant import DEGREE, CoSimulationError, Floats, Participant
+from .participant import CoSimulationError, Floats, Participant, constant
 
 ITERATIONS = 30
 CONVERGED = 1e-10
@@ -238,5 +238,5 @@ class Interface:
 
 
 def free_polynomials(parts: Sequence[Participant]) -> list[Floats]:
-    """Zero polynomials for all inputs of all participants."""
-    return [np.zeros((len(p.inputs), DEGREE + 1)) for p in parts]
+    """Polynomials for all inputs of all participants: constant at their start values."""
+    return [constant([p.start(n) for n in p.inputs]) for p in parts]

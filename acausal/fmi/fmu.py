@@ -6,15 +6,17 @@ import os
 import shutil
 import tempfile
 import weakref
+import zipfile
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree
 
 from ..errors import AcausalError, UnknownNameError, nearest
 
 if TYPE_CHECKING:
-    from ..language.component import Component
+    from ..language.component import Component, Connector
     from .fmu_participant import FmuParticipant
 
 REAL = ("Real", "Float64")
@@ -88,6 +90,15 @@ class Fmu:
         return tuple(k for k, has in (("cs", d.coSimulation), ("me", d.modelExchange)) if has is not None)
 
     @cached_property
+    def directional(self) -> bool:
+        """Whether model exchange has directional derivatives; FMPy does not read that attribute of FMI 3.0."""
+        with zipfile.ZipFile(self.path) as archive:
+            root = ElementTree.fromstring(archive.read("modelDescription.xml"))
+        name = "providesDirectionalDerivative" + ("" if self.version == "2.0" else "s")
+        interface = root.find("ModelExchange")
+        return interface is not None and interface.get(name) in ("true", "1")
+
+    @cached_property
     def folder(self) -> str:
         """Where it is unpacked."""
         place = tempfile.mkdtemp(prefix="acausal-fmu-")
@@ -122,9 +133,9 @@ class Fmu:
             raise FmuError(f"{self.path.name} does not offer {wanted} (it has: {', '.join(self.kinds)})")
         supported = fmpy().supported_platforms(str(self.path))
         if fmpy().platform not in supported and fmpy().platform_tuple not in supported:
-            raise FmuError(
-                f"{self.path.name} has binaries for {', '.join(supported) or 'no platform'}, not for {fmpy().platform}"
-            )
+            made = ", ".join(p for p in supported if p != "c-code") or "no platform"
+            advice = "; it has C sources: `fmpy compile` makes a binary of them" if "c-code" in supported else ""
+            raise FmuError(f"{self.path.name} has binaries for {made}, not for {fmpy().platform}{advice}")
         from fmpy.simulation import instantiate_fmu
 
         full = {"cs": "CoSimulation", "me": "ModelExchange"}[kind]
@@ -153,21 +164,56 @@ class Fmu:
 
         return FmuParticipant(self, outputs=outputs, parameters=parameters, needs=needs, name=name)
 
-    def component(self, *, parameters: Mapping[str, float] | None = None) -> Component:
+    def component(
+        self,
+        *,
+        parameters: Mapping[str, float] | None = None,
+        connectors: Mapping[str, tuple[type[Connector], Mapping[str, str]]] | None = None,
+    ) -> Component:
         """As a component of a model: its inputs and outputs are signals, its states are states of the system.
 
         Args:
             parameters: values by name.
+            connectors: by name of a connector that the component gets, its class, and by variable of the connector the
+                input or output of the unit that it equals, with a minus sign before the name where it is its negative:
+                ``{"flange": (tr.Flange, {"s": "position", "f": "-force"})}``.
 
         Raises:
-            FmuError: it does not offer model exchange, or has state events.
+            FmuError: it does not offer model exchange, has state events or arrays, or its variables do not fit the
+                connectors.
         """
         from .fmu_component import fmu_component
 
-        return fmu_component(self, parameters or {})
+        return fmu_component(self, parameters or {}, connectors or {})
 
     def __repr__(self) -> str:
         return f"<Fmu {self.path.name}: {self.name}, FMI {self.version}, {' and '.join(self.kinds)}>"
+
+
+def start_of(variable: Any) -> float:
+    """Start value of a real variable of a model description, 0 where it has none."""
+    return 0.0 if variable.start is None else float(variable.start)
+
+
+def set_parameters(instance: Any, fmu: Fmu, values: Mapping[str, float]) -> None:
+    """Set parameters of an FMPy instance of either version, whatever their type.
+
+    Raises:
+        UnknownNameError: no such variable.
+        FmuError: an array, or a string.
+    """
+    for name, value in values.items():
+        variable = fmu.variable(name)
+        kind = str(variable.type)
+        if variable.dimensions or kind in ("String", "Binary", "Clock"):
+            what = "an array" if variable.dimensions else f"of type {kind}"
+            raise FmuError(f"{fmu.path.name}: `{name}` is {what}; only numbers can be set")
+        if kind in REAL:
+            set_reals(instance, [variable.valueReference], [float(value)])
+            continue
+        whole = {"Enumeration": "Integer" if fmu.version == "2.0" else "Int64"}.get(kind, kind)
+        given = bool(value) if kind == "Boolean" else int(value)
+        getattr(instance, f"set{whole}")([variable.valueReference], [given])
 
 
 def set_reals(instance: Any, references: Sequence[int], values: Sequence[float]) -> None:

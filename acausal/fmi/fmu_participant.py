@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import UnknownNameError
 from .cutting import INSTANT
-from .fmu import Fmu, FmuError, get_reals, set_reals
+from .fmu import Fmu, FmuError, get_reals, set_parameters, set_reals, start_of
 from .participant import DEGREE, CoSimulationError, Floats
 
 _TAILS = tuple(f"_c{k}" for k in range(1, DEGREE + 1))
@@ -113,6 +114,10 @@ class FmuParticipant:
         value = self.fmu.variable(name).nominal
         return 0.0 if value is None else abs(float(value))
 
+    def start(self, name: str) -> float:
+        """Value of an input that nothing feeds: the start value of the model description."""
+        return start_of(self.fmu.variable(name))
+
     def unit(self, name: str) -> str:
         """Unit of the model description, empty if it has none."""
         return self.fmu.variable(name).unit or ""
@@ -132,15 +137,13 @@ class FmuParticipant:
                 else:
                     self._instance.enterInitializationMode(startTime=t0)
             self._set(t0, coefficients, 0.0)
-        except FmuError:
+        except (FmuError, UnknownNameError):
             raise
         except Exception as error:  # FMPy raises plain exceptions
             raise CoSimulationError(f"participant `{self.name}` ({self.fmu.path.name}): {error}") from error
 
     def _set_parameters(self) -> None:
-        names = list(self.parameters)
-        references = [self.fmu.variable(n).valueReference for n in names]
-        set_reals(self._instance, references, [float(self.parameters[n]) for n in names])
+        set_parameters(self._instance, self.fmu, self.parameters)
 
     def _set(self, t: float, coefficients: Floats, h: float) -> None:
         """Inputs as they can be followed over a step of length h from t."""
@@ -173,7 +176,7 @@ class FmuParticipant:
             else:
                 _, terminate, _, last = self._instance.doStep(t, h)
                 if terminate or last < t + h - 1e-9 * max(abs(t + h), h):
-                    raise CoSimulationError(f"it stopped at t = {last:.6g} s")
+                    raise CoSimulationError(f"it stopped at t = {last:.6g} s{self._pace(h)}")
         except Exception as error:  # FMPy raises plain exceptions
             raise CoSimulationError(
                 f"participant `{self.name}` ({self.fmu.path.name}) could not advance from t = {t:.6g} s by {h:.3g} s: "
@@ -182,9 +185,30 @@ class FmuParticipant:
         self._counts["macro_steps"] += 1
         self._counts["seconds"] += time.perf_counter() - begin
 
+    def _pace(self, h: float) -> str:
+        """Advice where a step is no multiple of the unit's own."""
+        own = float(getattr(self.fmu.description.coSimulation, "fixedInternalStepSize", None) or 0.0)
+        if not own or abs(h / own - round(h / own)) < 1e-9 * h / own:
+            return ""
+        return f"; its own steps are {own:.6g} s long: take multiples of them as macro step"
+
     def evaluate(self, t: float, coefficients: Floats) -> Floats:
-        """Outputs under these inputs, (3, n_y); of a unit that computes outputs in its steps alone, the last ones."""
+        """Outputs under these inputs, (3, n_y); of a unit that computes outputs in its steps alone, the last ones.
+
+        Raises:
+            CoSimulationError: the unit reports an error.
+        """
         begin = time.perf_counter()
+        try:
+            values = self._values(t, coefficients)
+        except Exception as error:  # FMPy raises plain exceptions
+            raise CoSimulationError(
+                f"participant `{self.name}` ({self.fmu.path.name}) has no outputs at t = {t:.6g} s: {error}"
+            ) from error
+        self._counts["seconds"] += time.perf_counter() - begin
+        return values
+
+    def _values(self, t: float, coefficients: Floats) -> Floats:
         values = np.full((3, len(self.outputs)), np.nan)
         if self.feedthrough:
             self._set(t, coefficients, 0.0)
@@ -194,7 +218,6 @@ class FmuParticipant:
             values[order, k] = value
         if self._rates:
             values[1, self._rates] = self._slopes() if self._running else 0.0
-        self._counts["seconds"] += time.perf_counter() - begin
         return values
 
     def _slopes(self) -> list[float]:

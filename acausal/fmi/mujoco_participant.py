@@ -91,6 +91,11 @@ class MujocoParticipant:
         del name
         return 0.0
 
+    def start(self, name: str) -> float:
+        """A torque that nothing feeds is zero."""
+        del name
+        return 0.0
+
     def unit(self, name: str) -> str:
         """As it was given, else empty."""
         return self.units.get(name, "")

@@ -87,6 +87,10 @@ class Participant(Protocol):
         """Typical magnitude of an input or output."""
         ...
 
+    def start(self, name: str) -> float:
+        """Value of an input that nothing feeds, and the guess for one that is fed."""
+        ...
+
     def unit(self, name: str) -> str:
         """Unit of an input or output, empty if none is known."""
         ...

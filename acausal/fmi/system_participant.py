@@ -129,6 +129,11 @@ class SystemParticipant:
         ids = np.ravel(self.system.index_of(name))
         return float(low.nominal[low.representative[ids[0]]])
 
+    def start(self, name: str) -> float:
+        """Value of an input that nothing feeds: its start value."""
+        place = self._places[self.system.input_names.index(name)] if name not in self.polynomials else None
+        return 0.0 if place is None else float(self.system.program.default[place])
+
     def unit(self, name: str) -> str:
         """Unit of an input or output, empty if the model gives none."""
         if name in self.polynomials:
