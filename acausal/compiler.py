@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from .errors import DeclarationError
+from .errors import DeclarationError, StructureError
 from .language.component import Component
 from .language.flat_model import FlatModel
 from .language.flatten import flatten
@@ -97,6 +97,16 @@ def finish(written: FlatModel, clock: Clock, counts: dict[str, int], *, located:
         counts: of variables and equations, for the report.
         located: whether conditions in equations are modes that change at events, or what they are at every moment.
     """
+    try:
+        return _passes(written, clock, counts, located=located)
+    except StructureError as error:
+        raise StructureError(
+            f"{error}{written.loop_hint()}", equations=error.equations, unknowns=error.unknowns,
+            components=error.components,
+        ) from error  # fmt: skip
+
+
+def _passes(written: FlatModel, clock: Clock, counts: dict[str, int], *, located: bool) -> System:
     flat = clock("events", lambda: extract_events(written, located=located))
     program = clock("parameters", lambda: ParameterProgram(flat))
     reduced = clock("aliases", lambda: eliminate_aliases(flat))

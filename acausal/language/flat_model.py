@@ -25,6 +25,10 @@ Bools = NDArray[np.bool_]
 Floats = NDArray[np.float64]
 
 
+SHOWN = 5
+"""Loops named in one message."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Source:
     """Where rows of a family come from: an origin in user code, and the instances of the component it stands in.
@@ -128,6 +132,7 @@ class FlatModel:
         actions: what happens at events beside the equations: rows of ``reinit``, ``assert``, ``terminate``.
         slots: values that change at events only; they stand behind the parameters and the inputs.
         rules: ``rule(target, expression)``, derivatives of variables that follow from other equations.
+        loops: connections that close loops, and advice for them.
         evaluated: mask of the parameters that are built into the equations; `evaluated_value` are their values.
     """
 
@@ -160,6 +165,7 @@ class FlatModel:
     actions: list[Family] = field(default_factory=list[Family])
     slots: Slots = field(default_factory=lambda: Slots())
     rules: list[Family] = field(default_factory=list[Family])
+    loops: list[tuple[str, str]] = field(default_factory=list[tuple[str, str]])
     evaluated: Bools = field(default_factory=lambda: np.zeros(0, bool))
     evaluated_value: Floats = field(default_factory=lambda: np.zeros(0))
 
@@ -230,6 +236,18 @@ class FlatModel:
             return self.equation_text(family, row, make(form.value, args))
         texts = ", ".join(self.equation_text(family, row, a) for a in args)
         return texts if op == "triggered" else f"{op}({texts})"
+
+    def loop_hint(self) -> str:
+        """What to say of closed loops where the model cannot be solved; empty without loops."""
+        if not self.loops:
+            return ""
+        shown = self.loops[:SHOWN]
+        more = f"\n    and {len(self.loops) - SHOWN} more" if len(self.loops) > SHOWN else ""
+        lines = [f"    {text}" for text, _ in shown]
+        advice = list(dict.fromkeys(advice for _, advice in self.loops if advice))
+        return "\n".join(["\nThe model has closed loops, at the connections of", *lines]) + more + "".join(
+            f"\n{text}" for text in advice
+        )
 
     def equation_place(self, family: Family, row: int) -> tuple[str, str]:
         """Component path and source position of an equation."""

@@ -342,7 +342,8 @@ def flatten(model: Component) -> FlatModel:
         select=np.pad(attributes.select, (0, pad), constant_values=2),
         kind=np.pad(attributes.kind, (0, pad), constant_values=Kind.VARIABLE),
         start_assignments=walker.start_assignments, inputs=inputs, sources=walker.sources,
-        rules=others["rule"], evaluated=evaluated, evaluated_value=np.full(template.par_count, np.nan),
+        rules=others["rule"], loops=loops.places, evaluated=evaluated,
+        evaluated_value=np.full(template.par_count, np.nan),
     )  # fmt: skip
 
 

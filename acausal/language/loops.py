@@ -26,11 +26,13 @@ class Loops:
     Attributes:
         kept: by connector interface and offset of each overdetermined quantity, the edges over which it is equal.
         closures: equations at the connections that close loops.
+        places: text of these connections, with advice for loops of that kind.
     """
 
     forest: Forest
     kept: dict[Any, dict[int, Bools]]
     closures: list[Family]
+    places: list[tuple[str, str]]
 
 
 def holds(condition: RootCondition, nodes: Ints, forest: Forest) -> Bools:
@@ -89,7 +91,17 @@ class LoopFinder:
             for quantity in range(offset, offset + parts[key, offset].var_count):
                 kept.setdefault(key, {})[quantity] = mask
         closures = [f for place, rows in closing.items() for f in _closures(parts[place], np.array(rows, np.int64))]
-        return Loops(forest, kept, closures)
+        said = [(self._text(k), _advice(parts[places[k][:2]])) for k in forest.cut]
+        return Loops(forest, kept, closures, said)
+
+    def _text(self, k: int) -> str:
+        link = self.graph.connections[k]
+        return f"`{self.graph.names[link.a]}` with `{self.graph.names[link.b]}` {link.where}"
+
+
+def _advice(template: Template) -> str:
+    assert issubclass(template.cls, Overdetermined)
+    return template.cls.loop_advice
 
 
 def _each(edges: list[tuple[Ints, Ints, int]]) -> Iterator[tuple[int, int, int, int]]:

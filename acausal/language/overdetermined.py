@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from ..errors import DeclarationError
 from ..symbolic.equation import Equation
@@ -22,7 +22,13 @@ Path = tuple[Any, ...]
 
 
 class Overdetermined(Connector, partial=True):
-    """A connector (mostly a part of another) whose potentials depend on each other."""
+    """A connector (mostly a part of another) whose potentials depend on each other.
+
+    Attributes:
+        loop_advice: what to try where a model with closed loops cannot be solved.
+    """
+
+    loop_advice: ClassVar[str] = ""
 
     def equality_constraint(self, other: Any) -> Vector:
         """Independent expressions that are zero where this one and the other are equal."""

@@ -12,6 +12,7 @@ from ..dae.matching import maximum_matching
 from ..errors import StructureError
 from ..language.declarations import Kind
 from ..language.flat_model import FlatModel
+from ..language.loops import overdetermined_parts
 from ..language.template import Ints, Template
 from .aliases import Reduced
 from .places import context
@@ -196,6 +197,8 @@ def unbalanced_classes(root: Template) -> list[str]:
             stack.extend(slot.templates)
         if template.is_connector or template.connections:
             continue
+        if any(overdetermined_parts(t) for s in template.children.values() for t in s.templates if t.is_connector):
+            continue  # what such a component must give depends on where the root is
         have = sum(_equation_count(template, e) for e in template.equations)
         need = _needed(template)
         if have != need and all(t.is_connector for s in template.children.values() for t in s.templates):

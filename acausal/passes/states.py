@@ -63,8 +63,8 @@ def _solve_lower(reduced: IndexReduced, lower: Ints, candidate: Bools, parameter
 
     An equation determines a variable of its own block of the highest-derivative system (Mattsson and Söderlind 1993,
     section 3.1). Where a block leaves no choice, the only variable is taken whatever its pivot: if that one vanishes,
-    the model itself is singular there. A variable of another block is taken, with a constant pivot, where those of its
-    own are wanted more as states (joint coordinates, rather than what is computed from them).
+    the model itself is singular there. Where the model says which variables it wants as states (joint coordinates,
+    rather than what is computed from them), a variable of another block is taken as well, with a constant pivot.
     """
     rows, columns, kind = _edges(reduced, lower, parameters)
     row_label, column_label = _top_blocks(reduced)
@@ -82,10 +82,8 @@ def _solve_lower(reduced: IndexReduced, lower: Ints, candidate: Bools, parameter
     parts = dulmage_mendelsohn(inside, np.asarray(maximum_matching(inside)))
     forced = np.zeros(len(lower), bool)
     forced[parts.square_rows] = True
-    wish = reduced.flat.select[ids].astype(np.int64)[graph.indices]
-    least = np.full(len(lower), len(STATE_SELECT))
-    np.minimum.at(least, owner[own], wish[own])
-    elsewhere = ~own & safe & (wish < least[owner]) & (least[owner] > STATE_SELECT.index("default"))
+    wanted = bool((reduced.flat.select[ids] > STATE_SELECT.index("default")).any())
+    elsewhere = ~own & safe & wanted
     allowed = own & (safe | forced[owner]) | elsewhere
     order = np.lexsort(_dislike(reduced, ids))
     column = np.asarray(transversal_basis(graph, order, allowed))

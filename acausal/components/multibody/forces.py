@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Component, Equations, Input, Variable, Vector, conditional, cross
+from acausal import Component, DeclarationError, Equations, Input, Variable, Vector, conditional, cross
 
 from .frames import ZEROS, Frame, resolve1, resolve2
 from .parts import PartialTwoFrames
@@ -37,7 +37,7 @@ class PartialResolved(Component, partial=True):
     def _frame(self) -> Frame | None:
         known = ["world", *(n for n in ("frame_a", "frame_b") if n in type(self)._children), "frame_resolve"]
         if self.resolveInFrame not in known:
-            raise ValueError(
+            raise DeclarationError(
                 f"{type(self).__name__}(resolveInFrame={self.resolveInFrame!r}): choose from {', '.join(known)}"
             )
         return None if self.resolveInFrame == "world" else getattr(self, self.resolveInFrame)

@@ -42,6 +42,10 @@ class Orientation(Overdetermined):
     Source: Modelica.Mechanics.MultiBody.Frames.Orientation.
     """
 
+    loop_advice = (
+        "If the joints of a loop are hinges with parallel axes (or slide across them), the constraints across that "
+        "plane are there several times: replace one `Revolute` of each planar loop by `RevolutePlanarLoopConstraint`."
+    )
     T: Matrix = Matrix(Potential(unit="1", doc="transformation matrix from the world frame to this frame"))
     w: Vector = Vector(Potential(unit="rad/s", doc="absolute angular velocity, resolved in this frame"))
 

@@ -221,7 +221,7 @@ class SphericalSpherical(PartialTwoFrames, Grounded):
     rodLength: Parameter = Parameter(1.0, unit="m", min=0.0, doc="distance of frame_b from frame_a")
     m: Parameter = Parameter(0.0, unit="kg", min=0.0, doc="mass in the middle of the rod")
     f_rod: Variable = Variable(unit="N", doc="force along the rod, positive on frame_a when directed to frame_b")
-    rRod_0: Vector = Vector(Variable(unit="m", doc="from frame_a to frame_b, in the world frame"))
+    rRod_0: Vector = Vector(Variable(unit="m", state_select="never", doc="from frame_a to frame_b, in the world frame"))
     eRod_a: Vector = Vector(Variable(unit="1", doc="direction from frame_a to frame_b, resolved in frame_a"))
     r_CM_0: Vector = Vector(Variable(unit="m", doc="position of the mass, in the world frame"))
     v_CM_0: Vector = Vector(Variable(unit="m/s", state_select="avoid", doc="its velocity"))

@@ -5,10 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from acausal import Equations, Parameter, Variable, Vector, der, max, noevent, norm
+from acausal import (
+    Equations,
+    Parameter,
+    Variable,
+    Vector,
+    choose,
+    defining,
+    der,
+    is_root,
+    max,
+    noevent,
+    norm,
+    potential_root,
+)
 
 from .. import translational
-from .frames import ZEROS, resolve2, resolve_relative
+from .frames import IDENTITY, ZEROS, resolve2, resolve_relative
 from .free_joints import implied_mass
 from .parts import PartialTwoFrames
 from .world import Grounded
@@ -17,13 +30,19 @@ from .world import Grounded
 class PartialLineForce(PartialTwoFrames, partial=True):
     """Force `f` along the line from frame_a to frame_b, positive when it pulls them together; subclasses give it.
 
-    ``s = |r_b - r_a|``, ``f_a = -e f``, ``f_b = e f``, no torques. Closer than `s_small`, the direction fades.
+    ``s = |r_b - r_a|``, ``f_a = -e f``, ``f_b = e f``, no torques. Closer than `s_small`, the direction fades. Where
+    line forces alone meet, the orientation of that point is the world's (Modelica asks for `fixedRotationAtFrame_a` or
+    `fixedRotationAtFrame_b` there; here it is found, and they may be given all the same).
 
     Source: Modelica.Mechanics.MultiBody.Interfaces.PartialLineForce.
     """
 
+    fixedRotationAtFrame_a: bool = False
+    fixedRotationAtFrame_b: bool = False
     s_small: Parameter = Parameter(1e-10, unit="m", min=0.0, doc="distance below which the line has no direction")
-    r_rel_0: Vector = Vector(Variable(unit="m", doc="from frame_a to frame_b, in the world frame"))
+    r_rel_0: Vector = Vector(
+        Variable(unit="m", state_select="never", doc="from frame_a to frame_b, in the world frame")
+    )
     e_rel_0: Vector = Vector(Variable(unit="1", doc="direction from frame_a to frame_b, in the world frame"))
     s: Variable = Variable(unit="m", doc="distance of the frames")
     f: Variable = Variable(unit="N", doc="force on frame_a toward frame_b, and on frame_b toward frame_a")
@@ -33,8 +52,9 @@ class PartialLineForce(PartialTwoFrames, partial=True):
         yield self.r_rel_0 == self.frame_b.r_0 - self.frame_a.r_0
         yield self.s == norm(self.r_rel_0)
         yield self.e_rel_0 == self.r_rel_0 / noevent(max(self.s, self.s_small))
-        yield self.frame_a.t == ZEROS
-        yield self.frame_b.t == ZEROS
+        for frame in (self.frame_a, self.frame_b):
+            yield potential_root(frame.R, 20000)
+            yield choose(is_root(frame.R), [defining(frame.R.T == IDENTITY), frame.R.w == ZEROS], [frame.t == ZEROS])
         yield from self.cut_forces()
 
     def cut_forces(self) -> Equations:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Component, Equations, Parameter, Vector, branch, choose, cross, rooted
+from acausal import Component, DeclarationError, Equations, Parameter, Vector, branch, choose, cross, rooted
 from acausal.language.overdetermined import Choice
 
 from .frames import (
@@ -112,7 +112,7 @@ class FixedRotation(PartialTwoFrames):
             return Rotation(from_nxy(self.n_x, self.n_y), self.n * 0.0)
         if self.rotationType == "PlanarRotationSequence":
             return axes_rotations(self.sequence, self.angles * DEGREE)
-        raise ValueError(
+        raise DeclarationError(
             f"FixedRotation(rotationType={self.rotationType!r}): choose from RotationAxis, TwoAxesVectors, "
             "PlanarRotationSequence"
         )

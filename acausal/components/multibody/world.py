@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Component, Equations, Parameter, Variable, Vector, defining, dot, outer, root
+from acausal import Component, DeclarationError, Equations, Parameter, Variable, Vector, defining, dot, outer, root
 
 from .frames import IDENTITY, ZEROS, Frame, unit_vector
 
@@ -36,7 +36,7 @@ class World(Component):
         yield from super().equations()
         kinds = ("UniformGravity", "PointGravity", "NoGravity")
         if self.gravityType not in kinds:
-            raise ValueError(f"World(gravityType={self.gravityType!r}): choose from {', '.join(kinds)}")
+            raise DeclarationError(f"World(gravityType={self.gravityType!r}): choose from {', '.join(kinds)}")
         yield root(self.frame_b.R)
         yield self.frame_b.r_0 == ZEROS
         yield defining(self.frame_b.R.T == IDENTITY)

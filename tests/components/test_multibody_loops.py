@@ -1,0 +1,156 @@
+"""3-D mechanics with closed kinematic loops that nobody cuts."""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Component, Equations, Solution, System, connect, inner, start
+from acausal.components import multibody as mb
+from acausal.components import rotational
+
+from .msl_multibody import Fourbar1
+
+G = 9.80665
+
+
+def rows(solution: Solution, name: str) -> np.ndarray:
+    """Values of a vector (n_t, 3) or a matrix (n_t, 3, 3)."""
+    values = np.asarray(solution[name])
+    return values.reshape(len(values), 3, 3) if values.shape[1] == 9 else values
+
+
+@functools.cache
+def fourbar() -> tuple[System, Solution]:
+    system = ac.compile(Fourbar1())
+    return system, system.simulate(t1=2.0, rtol=1e-9)
+
+
+def about(axis: int, angle: np.ndarray) -> np.ndarray:
+    """Matrices that turn vectors by `angle` about a coordinate axis, (n_t, 3, 3)."""
+    i, j = [(1, 2), (2, 0), (0, 1)][axis]
+    R = np.tile(np.eye(3), (len(angle), 1, 1))
+    R[:, i, i] = R[:, j, j] = np.cos(angle)
+    R[:, j, i], R[:, i, j] = np.sin(angle), -np.sin(angle)
+    return R
+
+
+def test_the_loop_stays_closed_to_rounding() -> None:
+    """Both ways around the loop, written out by hand, from the joint coordinates alone."""
+    _, s = fourbar()
+    x, y, _ = np.eye(3)
+    R1 = about(0, s["j1.phi"])
+    left = np.einsum("tij,j->ti", R1, np.array([0.0, 0.5, 0.1]))
+    R_left = R1 @ about(0, s["j3.phi"]) @ about(1, s["j4.phi"]) @ about(2, s["j5.phi"])
+    R2 = about(1, s["rev.phi"]) @ about(2, s["rev1.phi"])
+    right = 1.2 * x + np.outer(s["j2.s"], x) + 0.2 * y + np.einsum("tij,j->ti", R2, np.array([-1.0, 0.3, 0.1]))
+    assert np.abs(left - right).max() < 1e-9
+    assert np.abs(R_left - R2).max() < 1e-9
+
+
+def energy(system: System, solution: Solution, bodies: list[str]) -> np.ndarray:
+    """Kinetic energy and potential energy in gravity along -y; mass properties from the parameters of the run."""
+    flat, p = system.stages.flat, np.asarray(system.program.default)
+
+    def value(name: str) -> float:
+        return float(p[flat.names.find(name, parameter=True)[0]])
+
+    total = np.zeros(len(solution.t))
+    for body in bodies:
+        T, w = rows(solution, f"{body}.frame_a.R.T"), rows(solution, f"{body}.frame_a.R.w")
+        r_CM = np.array([value(f"{body}.r_CM[{k}]") for k in (1, 2, 3)])
+        J = np.array([[value(f"{body}.I_{max(i, j)}{min(i, j)}") for j in (1, 2, 3)] for i in (1, 2, 3)])
+        place = rows(solution, f"{body}.r_0") + np.einsum("tij,i->tj", T, r_CM)
+        v = rows(solution, f"{body}.v_0") + np.einsum("tij,ti->tj", T, np.cross(w, r_CM))
+        total += 0.5 * np.einsum("ti,ij,tj->t", w, J, w)
+        total += value(f"{body}.m") * (0.5 * (v**2).sum(axis=1) + G * place[:, 1])
+    return total
+
+
+def test_the_fourbar_conserves_energy() -> None:
+    system, solution = fourbar()
+    total = energy(system, solution, ["b1.body", "b2.body", "b3.body"])
+    assert np.ptp(total) < 1e-6 * np.abs(total).max()
+
+
+def test_one_degree_of_freedom_is_left() -> None:
+    system, _ = fourbar()
+    assert len(system.states) - len(system.stages.schedule.invariants) == 2
+    assert {"j1.phi", "j1.w"} <= set(system.states)
+
+
+class PlanarFourbar(Component):
+    """Four hinges with parallel axes, on a base that is inclined."""
+
+    world: mb.World = inner(mb.World())
+    base: mb.FixedRotation = mb.FixedRotation(n=(1.0, 2.0, 0.0), angle=37.0)
+    a: mb.Revolute = mb.Revolute(phi=start(0.5, fixed=True), w=start(1.0, fixed=True))
+    b: mb.Revolute = mb.Revolute()
+    c: mb.Revolute = mb.Revolute()
+    d: mb.PartialTwoFrames = mb.RevolutePlanarLoopConstraint()
+    left: mb.BodyShape = mb.BodyShape(r=(0.0, 1.0, 0.0), r_CM=(0.0, 0.5, 0.0), m=2.0)
+    ground: mb.FixedTranslation = mb.FixedTranslation(r=(2.0, 0.0, 0.0))
+    right: mb.BodyShape = mb.BodyShape(r=(0.0, 1.2, 0.0), r_CM=(0.0, 0.6, 0.0), m=1.0)
+    rod: mb.BodyShape = mb.BodyShape(r=(2.0, 0.0, 0.0), r_CM=(1.0, 0.0, 0.0), m=3.0)
+
+    def equations(self) -> Equations:
+        yield connect(self.world.frame_b, self.base.frame_a)
+        yield connect(self.base.frame_b, self.a.frame_a, self.ground.frame_a)
+        yield connect(self.a.frame_b, self.left.frame_a)
+        yield connect(self.left.frame_b, self.b.frame_a)
+        yield connect(self.b.frame_b, self.rod.frame_a)
+        yield connect(self.rod.frame_b, self.d.frame_a)
+        yield connect(self.d.frame_b, self.right.frame_b)
+        yield connect(self.right.frame_a, self.c.frame_b)
+        yield connect(self.c.frame_a, self.ground.frame_b)
+
+
+def test_planar_loop_with_a_planar_constraint_conserves_energy() -> None:
+    system = ac.compile(PlanarFourbar())
+    solution = system.simulate(t1=1.0, rtol=1e-9)
+    total = energy(system, solution, ["left.body", "right.body", "rod.body"])
+    assert np.ptp(total) < 1e-6 * np.abs(total).max() + 1e-6
+    distance = rows(solution, "right.frame_b.r_0") - rows(solution, "rod.frame_b.r_0")
+    assert np.abs(distance).max() < 1e-9
+
+
+def test_planar_loop_of_plain_hinges_is_explained() -> None:
+    with pytest.raises(ac.StructureError) as error:
+        ac.compile(PlanarFourbar(d=mb.Revolute()))
+    text = str(error.value)
+    assert "The model has closed loops, at the connections of" in text and "test_multibody_loops.py:" in text
+    assert "replace one `Revolute` of each planar loop by `RevolutePlanarLoopConstraint`" in text
+
+
+class Slider(Component):
+    """Crank, rod with ball joints, slider; driven through the hinge's flange."""
+
+    world: mb.World = inner(mb.World(gravityType="NoGravity"))
+    crank: mb.Revolute = mb.Revolute(useAxisFlange=True)
+    wheel: rotational.Inertia = rotational.Inertia(
+        J=0.5, phi=start(0.3, fixed=True, state_select="always"), w=start(2.0, fixed=True, state_select="always")
+    )
+    arm: mb.FixedTranslation = mb.FixedTranslation(r=(0.5, 0.0, 0.2))
+    rod: mb.SphericalSpherical = mb.SphericalSpherical(rodLength=1.5, rRod_0=start((1.4, -0.1, -0.2)))
+    rail: mb.Prismatic = mb.Prismatic(s=start(1.9))
+    load: mb.Body = mb.Body(m=1.0)
+
+    def equations(self) -> Equations:
+        yield connect(self.world.frame_b, self.crank.frame_a, self.rail.frame_a)
+        yield connect(self.wheel.flange_b, self.crank.axis)
+        yield connect(self.crank.frame_b, self.arm.frame_a)
+        yield connect(self.arm.frame_b, self.rod.frame_a)
+        yield connect(self.rod.frame_b, self.rail.frame_b, self.load.frame_a)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_slider_crank_with_a_rod_of_constant_length(engine: str) -> None:
+    solution = ac.compile(Slider()).simulate(t1=2.0, rtol=1e-8, engine=engine)  # type: ignore[arg-type]
+    phi, w, v = solution["crank.phi"], solution["crank.w"], solution["rail.v"]
+    place = 0.5 * np.cos(phi) + np.sqrt(1.5**2 - 0.2**2 - (0.5 * np.sin(phi)) ** 2)
+    assert np.allclose(solution["rail.s"], place, atol=1e-8)
+    total = 0.25 * w**2 + 0.5 * v**2
+    assert np.ptp(total) < 1e-5 * total[0]
