@@ -73,6 +73,7 @@ class Hybrid:
     Attributes:
         flat: the model, for names.
         first: number of the first slot among the parameters.
+        closures: groups of the schedule that something needs, by what that is; filled when they are first asked for.
     """
 
     flat: FlatModel
@@ -88,6 +89,7 @@ class Hybrid:
     ends: list[tuple[Piece, str]]
     roots: Roots
     texts: dict[int, str] = field(default_factory=dict[int, str])
+    closures: dict[str, list[int]] = field(default_factory=dict[str, list[int]])
 
     @property
     def slots(self) -> slice:

@@ -36,11 +36,12 @@ class NumericRun:
 
     def __init__(
         self, lowered: Lowered, t: float, x: Floats, w: Floats, p: Floats, free: Ints, directions: Any = None,
-        p_directions: Any = None, t_direction: Any = None,
+        p_directions: Any = None, t_direction: Any = None, groups: Iterable[int] | None = None,
     ) -> None:  # fmt: skip
         """Derivatives with respect to the states `free` and all of w, or along the columns of `directions` of z.
 
-        With `p_directions` (n_p, n_y) the parameters move too, with `t_direction` (n_y,) time.
+        With `p_directions` (n_p, n_y) the parameters move too, with `t_direction` (n_y,) time. Only some `groups` of
+        the schedule are evaluated if they are given.
         """
         self.t_direction = t_direction
         self.p_directions = p_directions
@@ -60,14 +61,12 @@ class NumericRun:
         self.gradient[tears] = directions[len(states) :]
         residuals: list[Dual] = []
         with np.errstate(all="ignore"):
-            for group in lowered.schedule.groups:
-                residuals.extend(self._group(group))
-        n = lowered.n_w
+            for k in range(len(lowered.schedule.groups)) if groups is None else groups:
+                residuals.extend(self._group(lowered.schedule.groups[k]))
         self.residual: tuple[Floats, Floats] = (
             np.concatenate([np.zeros(0), *(np.ravel(v) for v, _ in residuals)]),
             np.concatenate([np.zeros((0, self.n_y)), *(g for _, g in residuals)]),
         )
-        assert len(self.residual[0]) == n
 
     def _group(self, group: Group) -> list[Dual]:
         kernel, rows = group.kernel, group.var_rows

@@ -59,7 +59,7 @@ class EventTangents:
         time = np.zeros(k + 1)
         time[k] = 1.0
         x, w = first.z[: low.n_x], first.z[low.n_x :]
-        run = NumericRun(low, first.t, x, w, first.p, np.arange(low.n_x), both, p_both, time)
+        run = NumericRun(low, first.t, x, w, first.p, np.arange(low.n_x), both, p_both, time, self._groups("switches"))
         tau = self._delay(run, roots, samples, dp)
         along = p_both[:, :k] + np.outer(p_both[:, k], tau)
         dx, moved = self._through(moves, both[: low.n_x, :k] + np.outer(both[: low.n_x, k], tau), along, tau)
@@ -67,6 +67,19 @@ class EventTangents:
         last = moves[-1]
         dx = dx - np.outer(self._rate(last.t, last.z_after, p_after)[: low.n_x], tau)
         return self._with_algebraic(last.t, last.z_after, p_after, dx, moved, np.zeros(k)), moved
+
+    def _groups(self, purpose: str) -> list[int]:
+        """Groups of the schedule that are needed for what switches, for what events change, or for the residuals."""
+        hybrid, known = self.hybrid, self.hybrid.closures
+        if purpose not in known:
+            pieces = {
+                "switches": [*hybrid.roots.families, *(piece.rows for piece in hybrid.samples)],
+                "changes": [*(piece.rows for piece in hybrid.pres), *(item.piece.rows for item in hybrid.reinits)],
+                "residuals": list[Any](),
+            }[purpose]
+            ids = np.concatenate([np.zeros(0, np.int64), *(rows.var_rows.ravel() for rows in pieces)])
+            known[purpose] = self.low.closure(ids, residuals=purpose == "residuals")
+        return known[purpose]
 
     def _inputs(self) -> slice:
         flat = self.hybrid.flat
@@ -93,7 +106,7 @@ class EventTangents:
         dp = np.zeros((len(p), 1))
         dp[self._inputs(), 0] = self.rates(t)
         rate, x, w = self._rate(t, z, p)[:, None], z[: low.n_x], z[low.n_x :]
-        run = NumericRun(low, t, x, w, p, np.arange(low.n_x), rate, dp, np.ones(1))
+        run = NumericRun(low, t, x, w, p, np.arange(low.n_x), rate, dp, np.ones(1), self._groups("switches"))
         return run.families(self.hybrid.roots.families)[1][:, 0]
 
     def _rate(self, t: float, z: Floats, p: Floats) -> Floats:
@@ -116,7 +129,8 @@ class EventTangents:
         directions[low.n_x :, k:] = np.eye(n)
         p_directions = np.concatenate([dp, np.zeros((len(dp), n))], axis=1)
         time = np.concatenate([dt, np.zeros(n)])
-        run = NumericRun(low, t, z[: low.n_x], z[low.n_x :], p, np.arange(low.n_x), directions, p_directions, time)
+        x, w, groups = z[: low.n_x], z[low.n_x :], self._groups("residuals")
+        run = NumericRun(low, t, x, w, p, np.arange(low.n_x), directions, p_directions, time, groups)
         slope = run.residual[1]
         dw = np.asarray(np.linalg.lstsq(slope[:, k:], -slope[:, :k], rcond=None)[0], float)
         return np.concatenate([dx, dw])
@@ -127,7 +141,7 @@ class EventTangents:
         for move in moves:
             dz = self._with_algebraic(move.t, move.z, move.p, dx, dp, tau)
             x, w = move.z[: low.n_x], move.z[low.n_x :]
-            run = NumericRun(low, move.t, x, w, move.p, np.arange(low.n_x), dz, dp, tau)
+            run = NumericRun(low, move.t, x, w, move.p, np.arange(low.n_x), dz, dp, tau, self._groups("changes"))
             dx = self._reinitialized(move, run, dz, dp, tau)
             dp = dp.copy()
             for piece in self.hybrid.pres:
