@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from ..language.flat_model import Bools, Family, FlatModel
 from ..language.template import Floats, Ints
 from ..passes.specialize import specialize
 from ..symbolic.expr import ONE, Expr, add, neg
-from ..symbolic.traverse import evaluate, leaves
+from ..symbolic.traverse import evaluate_in_order, leaves, postorder
 
 Values = Floats
 
@@ -25,15 +26,25 @@ class Piece:
         forms: the expressions.
         rows: where their variables and parameters are.
         slots: what they determine, one number a row (of an action: nothing).
+        order: all nodes below the expressions, operands first.
     """
 
     forms: tuple[Expr, ...]
     rows: Family
     slots: Ints
+    order: list[Expr] = field(init=False)
 
-    def values(self, run: Any) -> list[Any]:
-        """Values of all forms, each (n,); `run` has values of variables and parameters, and the time."""
-        return [np.broadcast_to(np.asarray(v, float), (self.rows.size,)) for v in run.evaluate(self.forms, self.rows)]
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "order", postorder(self.forms))
+
+    def values(self, point: Point) -> list[Any]:
+        """Values of all forms at a point, each (n,)."""
+        n = self.rows.size
+        found: list[Any] = []
+        for v in point.evaluate(self.forms, self.rows, self.order):
+            v = np.asarray(v, float)
+            found.append(v if v.shape == (n,) else np.broadcast_to(v, (n,)))
+        return found
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,6 +112,11 @@ class Hybrid:
         kinds = self.flat.kind
         return np.where(ids < len(kinds), kinds[np.minimum(ids, len(kinds) - 1)] != Kind.DISCRETE, True)
 
+    @cached_property
+    def moving_roots(self) -> list[Bools]:
+        """Which of the variables in each function whose change of sign is an event move between events."""
+        return [self.moves(family.var_rows) for family in self.roots.families]
+
     def follows(self, piece: Piece) -> bool:
         """Whether expressions depend on discrete quantities only: they change with those and not by themselves."""
         ids = piece.rows.var_rows
@@ -130,8 +146,9 @@ class Point:
     def __init__(self, t: float, values: Floats, p: Floats) -> None:
         self.t, self.v, self.p = t, values, p
 
-    def evaluate(self, forms: tuple[Expr, ...], rows: Family) -> list[Any]:
-        """Values of expressions, each a number or (n,)."""
+    def evaluate(self, forms: tuple[Expr, ...], rows: Family, order: list[Expr]) -> list[Any]:
+        """Values of expressions, each a number or (n,); `order` has all nodes below them, operands first."""
+        values: dict[int, Any] = {}
 
         def leaf(node: Expr) -> Any:
             if node.op == "time":
@@ -141,7 +158,8 @@ class Point:
             return self.v[rows.var_rows[:, node.value]]
 
         with np.errstate(all="ignore"):
-            return evaluate(forms, leaf, np)
+            evaluate_in_order(order, leaf, np, values)
+        return [values[id(form)] for form in forms]
 
 
 def make_hybrid(flat: FlatModel, representative: Ints, sign: Ints) -> Hybrid | None:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from acausal.lowering.hybrid import Hybrid, Point
+from acausal.symbolic.traverse import postorder
 
 from .event_iteration import Equations
 from .native_library import Floats
@@ -17,7 +18,8 @@ def sides(hybrid: Hybrid, equations: Equations, t: float, z: Floats, p: Floats) 
     p = p.copy()
     equations.feed(t, p)
     point = Point(t, equations.values(t, z, p), p)
-    parts = [np.broadcast_to(point.evaluate((f.residual,), f)[0], (f.size,)) for f in hybrid.roots.families]
+    values = [point.evaluate((f.residual,), f, postorder((f.residual,)))[0] for f in hybrid.roots.families]
+    parts = [np.broadcast_to(v, (f.size,)) for v, f in zip(values, hybrid.roots.families, strict=True)]
     g = np.concatenate([np.zeros(0), *parts])
     return np.where(modes(hybrid, p), g, -g)
 

@@ -313,10 +313,9 @@ class EventIteration:
         """What of each root function is rounding: nothing where it depends on time and discrete variables only."""
         parts: list[Any] = [np.zeros(0)]
         nominal = self.problem.lowered.nominal
-        for family in self.hybrid.roots.families:
-            ids = family.var_rows
-            size = np.maximum(np.nan_to_num(np.abs(values[ids])), nominal[ids]) * self.hybrid.moves(ids)
-            parts.append(ROUNDING * size.max(axis=1, initial=0.0))
+        size = np.fmax(np.abs(values), nominal[: len(values)])
+        for family, moves in zip(self.hybrid.roots.families, self.hybrid.moving_roots, strict=True):
+            parts.append(ROUNDING * (size[family.var_rows] * moves).max(axis=1, initial=0.0))
         self.noise = np.concatenate(parts)
 
     # ---- actions ----------------------------------------------------------------------------------

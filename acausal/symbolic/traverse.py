@@ -70,7 +70,13 @@ def evaluate(
     """
     roots = list(roots)
     values: dict[int, Any] = {} if memo is None else memo
-    for node in postorder_missing(roots, values):
+    evaluate_in_order(postorder_missing(roots, values), leaf, xp, values)
+    return [values[id(root)] for root in roots]
+
+
+def evaluate_in_order(order: Iterable[Expr], leaf: Callable[[Expr], Any], xp: Any, values: dict[int, Any]) -> None:
+    """Put the values of nodes, operands before operators, into `values`, by node identity."""
+    for node in order:
         if node.op == "const":
             values[id(node)] = node.value
         elif node.op == "call":
@@ -79,7 +85,6 @@ def evaluate(
             values[id(node)] = leaf(node)
         else:
             values[id(node)] = apply(node, [values[id(a)] for a in node.args], xp)
-    return [values[id(root)] for root in roots]
 
 
 def postorder_missing(roots: list[Expr], known: Mapping[int, Any]) -> list[Expr]:
