@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import threading
 from collections.abc import Callable, Mapping
 from types import new_class
@@ -99,11 +100,18 @@ class _Evaluator:
         n = len(self.states)
         self.instance.setTime(float(point[0]))
         if n:
-            import ctypes
-
-            array = (ctypes.c_double * n)(*point[1 : n + 1])
-            self.instance.setContinuousStates(array, n)
+            self.instance.setContinuousStates((ctypes.c_double * n)(*point[1 : n + 1]), n)
         set_reals(self.instance, self.knowns[n:], [float(v) for v in point[n + 1 :]])
+
+    def _derivatives(self) -> list[float]:
+        """Of the states; some units compute them in this call only, not for a read of the variables."""
+        n = len(self.states)
+        found = (ctypes.c_double * n)()
+        if n and self.fmu.version == "2.0":
+            self.instance.getDerivatives(found, n)
+        elif n:
+            self.instance.getContinuousStateDerivatives(found, n)
+        return list(found)
 
     def evaluate(self, point: np.ndarray) -> np.ndarray:
         """Derivatives of the states, then outputs, at (t, states, inputs)."""
@@ -112,7 +120,8 @@ class _Evaluator:
             self.point = None
             try:
                 self._go(point)
-                self.values = np.array(get_reals(self.instance, self.unknowns))
+                outputs = get_reals(self.instance, self.unknowns[len(self.states) :])
+                self.values = np.array([*self._derivatives(), *outputs])
             except Exception as error:  # FMPy raises plain exceptions
                 raise FmuError(f"{self.fmu.path.name} failed at t = {point[0]:.6g} s: {error}") from error
             self.point = key
