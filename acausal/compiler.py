@@ -20,6 +20,7 @@ from .lowering.parameters import ParameterProgram
 from .passes.aliases import Reduced, eliminate_aliases
 from .passes.evaluate import evaluate_parameters
 from .passes.events import extract_events
+from .passes.guesses import infer_guesses
 from .passes.inputs import input_equations
 from .passes.regularize import regularize
 from .passes.schedule import make_schedule
@@ -114,6 +115,7 @@ def _passes(written: FlatModel, clock: Clock, counts: dict[str, int], *, located
     low_index = clock("index reduction", lambda: regularize(reduced, program.generic))
     selected = clock("states", lambda: select_states(low_index, program.default))
     schedule = clock("sort and tear", lambda: make_schedule(selected, program.default))
+    infer_guesses(schedule, reduced, program.default, program.starts(program.default, np))
     lowered = clock("lower", lambda: Lowered(schedule, _nominal(flat, reduced, len(low_index.unknown)), program.n_p))
     extended = _extended(reduced, flat.n_total)
     initial = specialize(flat.initial, *extended)

@@ -2,6 +2,8 @@
 
 from .bodies import Body as Body
 from .bodies import PointMass as PointMass
+from .drives import Mounting1D as Mounting1D
+from .drives import Rotor1D as Rotor1D
 from .forces import Force as Force
 from .forces import ForceAndTorque as ForceAndTorque
 from .forces import Torque as Torque
@@ -42,5 +44,6 @@ from .sensors import RelativeVelocity as RelativeVelocity
 from .shapes import BodyBox as BodyBox
 from .shapes import BodyCylinder as BodyCylinder
 from .shapes import BodyShape as BodyShape
+from .universal_spherical import UniversalSpherical as UniversalSpherical
 from .world import Fixed as Fixed
 from .world import World as World

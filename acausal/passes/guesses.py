@@ -1,0 +1,105 @@
+"""Guesses for what is iterated on, from the start values of other variables.
+
+A model says roughly where a mechanism is by start values of the coordinates that come to mind (a slider's position),
+while the compiler iterates on others (a rod's direction). Start values are carried over: an equation in which all
+variables but one have a value gives a value for that one. Values are those at the default parameters; they decide
+which of several solutions is found, not what it is.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import Any
+
+import numpy as np
+
+from ..language.template import Floats
+from ..symbolic.expr import Expr, var
+from ..symbolic.isolate import Isolated, isolate
+from ..symbolic.traverse import evaluate
+from .aliases import Reduced
+from .schedule import Schedule
+
+LARGEST = 5000
+"""Models with more equations than this keep the guesses they are given."""
+
+
+def infer_guesses(schedule: Schedule, aliases: Reduced, parameters: Floats, starts: Floats) -> None:
+    """Give the algebraic unknowns without start value one, where it follows from others; in place.
+
+    Args:
+        schedule: the sorted equations; `flat.start` of its model is completed.
+        aliases: which variable stands for which.
+        parameters: default values (n_p,).
+        starts: start values of all variables at these, nan where none is given.
+    """
+    reduced = schedule.reduced
+    flat = reduced.flat
+    known = _known(aliases, starts, len(reduced.unknown))
+    wanted = [int(v) for v in schedule.tears if np.isnan(known[v])]
+    if not wanted or len(reduced.rows) > LARGEST or np.isnan(known).all():
+        return
+    _carry_over(reduced, known, parameters)
+    for v in wanted:
+        if np.isfinite(known[v]):
+            flat.start[v] = known[v]
+
+
+def _known(aliases: Reduced, starts: Floats, n: int) -> Floats:
+    """Values of the reduced variables; fixed ones before guesses, those of the variable itself before an alias's."""
+    known = np.full(n, np.nan)
+    flat = aliases.flat
+    given = np.flatnonzero(~np.isnan(starts[: len(aliases.representative)]) & (aliases.sign != 0))
+    own = aliases.representative[given] == given
+    for v in given[np.lexsort((own, flat.fixed[given] == 1))].tolist():  # what counts most comes last
+        known[aliases.representative[v]] = aliases.sign[v] * starts[v]
+    return known
+
+
+def _carry_over(reduced: Any, known: Floats, parameters: Floats) -> None:
+    """Values from equations with one variable that has none, as long as there are such."""
+    rows = [reduced.rows.locate(row) for row in range(len(reduced.rows))]
+    columns = [family.var_rows[k] for family, k in rows]
+    users: dict[int, list[int]] = {}
+    missing: list[int] = []
+    for row, ids in enumerate(columns):
+        open_ones = {int(v) for v in ids if np.isnan(known[v])}
+        missing.append(len(open_ones))
+        for v in open_ones:
+            users.setdefault(v, []).append(row)
+    solved: dict[tuple[int, int], Isolated] = {}
+    queue = deque(row for row, count in enumerate(missing) if count == 1)
+    while queue:
+        row = queue.popleft()
+        family, k = rows[row]
+        slots = np.flatnonzero(np.isnan(known[columns[row]]))
+        if len(slots) != 1:
+            continue
+        key = id(family.residual), int(slots[0])
+        if key not in solved:
+            solved[key] = isolate(family.residual, var(int(slots[0])))
+        value = _value(solved[key].solution, known[columns[row]], parameters[family.par_rows[k]])
+        if not np.isfinite(value):
+            continue
+        target = int(columns[row][slots[0]])
+        known[target] = value
+        for user in users.get(target, ()):
+            missing[user] -= 1
+            if missing[user] == 1:
+                queue.append(user)
+
+
+def _value(solution: Expr | None, variables: Floats, parameters: Floats) -> float:
+    if solution is None:
+        return np.nan
+
+    def leaf(node: Expr) -> float:
+        if node.op in ("var", "par"):
+            return float((variables if node.op == "var" else parameters)[node.value])
+        return 0.0  # the time
+
+    with np.errstate(all="ignore"):
+        try:
+            return float(evaluate((solution,), leaf, np)[0])
+        except ZeroDivisionError:
+            return np.nan
