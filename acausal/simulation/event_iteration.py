@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import combinations
 from typing import Any, Protocol
 
 import numpy as np
@@ -27,6 +28,8 @@ ROUNDING = 1e-13
 NOISE = 1e-9
 """A condition that switches back and forth and is no further from its switch than this, relative to the quantities in
 it, is there by rounding."""
+MOST_SEARCHED = 10
+"""Conditions of which all combinations are tried."""
 
 
 class Equations(Protocol):
@@ -102,6 +105,7 @@ class EventIteration:
         self.moves: list[Move] = []
         self.forced: list[int] = []
         self.noise: Floats = np.zeros(hybrid.roots.count)
+        self.largest: Floats = np.zeros(hybrid.flat.slots.count)
         self.levels = levels(problem.lowered)
         self.moving = [bool(hybrid.moves(piece.rows.var_rows).any()) for piece in hybrid.pres]
         self.follow = [hybrid.follows(piece) for piece in hybrid.relations]
@@ -227,7 +231,9 @@ class EventIteration:
             moved = self._put_lefts(p, point)
             self.before = now
             if not active and not moved:
+                self._check_solved(t, values)
                 self._rounding(values)
+                self._note_sizes(point)
                 return Outcome(z, p, values, ended, list(dict.fromkeys(seen)))
             for piece in self.hybrid.triggers:
                 p[piece.slots] = 0.0
@@ -238,36 +244,100 @@ class EventIteration:
 
     def _consistent(self, t: float, z: Floats, p: Floats) -> tuple[Floats, Floats]:
         """Modes and triggers that agree with the solution of the equations."""
-        hybrid = self.hybrid
-        held = hybrid.slots
+        before, involved = p[self.hybrid.slots].copy(), dict[int, None]()
+        found = self._by_turns(t, z, p, involved, one_by_one=False)
+        found = found or self._by_turns(t, z, p, involved, one_by_one=True)
+        found = found or self._by_search(t, z, p, before, list(involved))
+        if found is not None:
+            return found
+        raise SimulationError(
+            f"At t = {t:.12g} s no values of these conditions agree with the equations (each contradicts itself):\n"
+            f"{self._names(list(involved))}\nThe model has no solution there, or several states of a switch depend on "
+            "each other: give the components a smooth or resistive characteristic."
+        )
+
+    def _by_turns(
+        self, t: float, z: Floats, p: Floats, involved: dict[int, None], *, one_by_one: bool
+    ) -> tuple[Floats, Floats] | None:
+        """Modes changed as the solution says, again and again; None if that goes round in a circle.
+
+        One by one is Murty's least-index rule, which does not cycle where the characteristics are monotone: Murty
+        (1974), Note on a Bard-type scheme for solving the complementarity problem, Opsearch 11.
+        """
+        held = self.hybrid.slots
+        kinds = self.hybrid.flat.slots.kinds
         tried: dict[bytes, None] = {}
-        one_by_one = False
-        changed: list[int] = []
         for _ in range(TURNS):
             z, values, restless = self._propagated(t, z, p)
-            point = Point(t, values, p)
-            old = p[held].copy()
+            point, old = Point(t, values, p.copy()), p[held].copy()
             changed = self._modes(point, p)
             if not changed and not restless:
                 return z, values
+            involved.update(dict.fromkeys([*changed, *restless]))
             if old.tobytes() in tried:
-                if not restless and self._by_rounding(point, changed):
-                    p[held] = old
-                    return z, values
-                if one_by_one:
-                    changed += restless
-                    break
-                one_by_one, tried = True, {}
+                by_rounding = not restless and self._by_rounding(point, changed)
+                p[held] = old
+                return (z, values) if by_rounding else None
             tried[old.tobytes()] = None
-            if one_by_one and len(changed) > 1:  # Murty's least-index rule: it does not cycle where a solution exists
+            if one_by_one and len(changed) > 1:
                 p[held] = old
                 first = min(changed)
-                p[first] = 1.0 - p[first] if hybrid.flat.slots.kinds[first - hybrid.first] == "relation" else p[first]
-        raise SimulationError(
-            f"At t = {t:.12g} s no values of these conditions agree with the equations (each one contradicts itself):\n"
-            f"{self._names(changed)}\nThe model has no solution there, or several states of a switch depend on each "
-            "other: give the components a smooth or resistive characteristic."
-        )
+                p[first] = 1.0 - p[first] if kinds[first - self.hybrid.first] == "relation" else p[first]
+        return None
+
+    def _by_search(
+        self, t: float, z: Floats, p: Floats, before: Floats, involved: list[int]
+    ) -> tuple[Floats, Floats] | None:
+        """The modes nearest to those before that agree, of all combinations of the conditions that have changed or that
+        feel it when these do."""
+        held, kinds = self.hybrid.slots, self.hybrid.flat.slots.kinds
+        slots = [s for s in involved if kinds[s - self.hybrid.first] == "relation"]
+        slots = list(dict.fromkeys([*slots, *self._feeling(t, z, p, before, slots)]))[:MOST_SEARCHED]
+        for n in range(len(slots) + 1):
+            for flipped in combinations(slots, n):
+                p[held] = before
+                p[list(flipped)] = 1.0 - p[list(flipped)]
+                try:
+                    found, values, restless = self._propagated(t, z, p)
+                except SimulationError:  # these modes have no solution
+                    continue
+                if not restless and not self._modes(Point(t, values, p), p):
+                    return found, values
+        p[held] = before
+        return None
+
+    def _feeling(self, t: float, z: Floats, p: Floats, before: Floats, slots: list[int]) -> list[int]:
+        """Conditions whose functions have other values when one of these modes is another."""
+        found: list[int] = []
+        values: list[Any] = []
+        for flipped in [[], *([s] for s in slots)]:
+            p[self.hybrid.slots] = before
+            p[flipped] = 1.0 - p[flipped]
+            try:
+                point = Point(t, self._propagated(t, z, p)[1], p)
+            except SimulationError:  # these modes have no solution
+                continue
+            values.append([piece.values(point)[0] for piece in self.hybrid.relations])
+        for k, piece in enumerate(self.hybrid.relations):
+            size = np.array([v[k] for v in values])
+            moved = np.ptp(size, axis=0) > NOISE * np.abs(size).max(axis=0)
+            if not self.follow[k]:
+                found += piece.slots[moved].tolist()
+        return found
+
+    def _check_solved(self, t: float, values: Floats) -> None:
+        """Raise an error where coupled equations have become singular with these modes."""
+        low = self.problem.lowered
+        unknowns = [g.unknowns.ravel() for g in low.schedule.groups if g.kernel.size > 1]
+        ids = np.concatenate([np.zeros(0, np.int64), *unknowns])
+        lost = ids[~np.isfinite(values[ids])]
+        if len(lost):
+            names = ", ".join(f"`{self.hybrid.flat.name(int(v))}`" for v in lost[:5])
+            raise SimulationError(
+                f"At t = {t:.12g} s the equations are singular with the present states of all switches: nothing "
+                f"determines {names}.\nTwo parts of the model fix the same quantity at once, such as two frictions "
+                "that hold the same shaft: give one of them some elasticity, or remove one."
+            )
 
     def _propagated(self, t: float, z: Floats, p: Floats) -> tuple[Floats, Floats, list[int]]:
         """Solution and values with all that follows from discrete quantities; the slots that do not come to rest.
@@ -298,10 +368,17 @@ class EventIteration:
         return all(kinds[s - self.hybrid.first] == "relation" for s in changed)
 
     def _scale(self, piece: Piece, point: Point) -> Any:
-        ids = piece.rows.var_rows
+        """Size of what is in a condition, or of its function at earlier events."""
+        ids, earlier = piece.rows.var_rows, self.largest[piece.slots - self.hybrid.first]
         if not ids.shape[1]:
-            return np.ones(piece.rows.size)
-        return np.maximum(np.abs(point.v[ids]), self.problem.lowered.nominal[ids]).max(axis=1)
+            return np.maximum(earlier, 1.0)
+        now = np.maximum(np.abs(point.v[ids]), self.problem.lowered.nominal[ids]).max(axis=1)
+        return np.maximum(earlier, now)
+
+    def _note_sizes(self, point: Point) -> None:
+        for piece in self.hybrid.relations:
+            places, g = piece.slots - self.hybrid.first, np.nan_to_num(np.abs(piece.values(point)[0]), posinf=0.0)
+            self.largest[places] = np.maximum(self.largest[places], g)
 
     def _settled(self, t: float, z: Floats, p: Floats) -> Floats:
         found = self.equations.settle(t, z, p)

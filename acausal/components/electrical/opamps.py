@@ -171,7 +171,8 @@ class OpAmpLimited(Component):
             yield self.Tau * der(self.v_int) == self.V0 * self.v_in - self.v_int
         else:
             yield self.v_int == self.V0 * self.v_in
-        yield self.v_out == ac.clip(self.v_int, self.vns, self.vps)
+        low, high = self.v_int < self.vns, self.v_int > self.vps
+        yield self.v_out == ac.where(high, self.vps, ac.where(low, self.vns, self.v_int))
 
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()

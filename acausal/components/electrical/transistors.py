@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Equations, Expr, Parameter, Variable, conditional, der, where
+from acausal import Equations, Expr, Parameter, Variable, conditional, der, noevent, where
 from acausal import max as maximum
 from acausal import min as minimum
 
@@ -211,12 +211,13 @@ class PartialMOS(ConditionalHeatPort, partial=True):
             k2 = self.K2 * (1 + (self.T_heatPort - self.Tnom) * self.kk2)
         d, g, source, bulk = s * self.D.v, s * self.G.v, s * self.S.v, s * self.B.v
         gain = beta * (self.W + self.dW) / (self.L + self.dL)
-        low = minimum(d, source)
-        uds = maximum(d, source) - low
+        reverse = d < source  # everywhere the same side where both are equal: the slope there is that of `RDS`
+        low = noevent(where(reverse, d, source))
+        uds = noevent(where(reverse, source, d)) - low
         ugst = (g - low - s * threshold + k2 * minimum(bulk - low, 0.0)) * self.K5
         effective = minimum(uds, maximum(ugst, 0.0))
         yield self.id == gain * effective * (maximum(ugst, 0.0) - effective / 2) + uds / self.RDS
-        yield self.D.i == s * where(d < source, -self.id, self.id)
+        yield self.D.i == s * noevent(where(reverse, -self.id, self.id))
         yield self.S.i == -self.D.i
         yield self.G.i == 0
         yield self.B.i == 0

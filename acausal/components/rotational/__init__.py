@@ -34,6 +34,7 @@ from .interfaces import PartialRelativeSensor as PartialRelativeSensor
 from .interfaces import PartialSupport as PartialSupport
 from .interfaces import PartialTwoFlanges as PartialTwoFlanges
 from .interfaces import PartialTwoFlangesAndSupport as PartialTwoFlangesAndSupport
+from .lossy_gear import LossyGear as LossyGear
 from .sensors import AccSensor as AccSensor
 from .sensors import AngleSensor as AngleSensor
 from .sensors import MultiSensor as MultiSensor

@@ -1,0 +1,93 @@
+"""Gear with losses in its teeth and bearings, which may jam."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import acausal as ac
+from acausal import Discrete, Equations, Expr, Parameter, Variable, der, pre, where
+
+from .. import blocks, thermal
+from .friction import BACKWARD, FORWARD, STUCK, UNKNOWN
+from .interfaces import PartialTwoFlangesAndSupport
+
+
+class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport):
+    """Gear without inertia, ``phi_a = ratio phi_b``, with mesh efficiency and bearing friction.
+
+    ``flange_b.tau = -ratio (flange_a.tau - tauLoss)``. While flange a drives (``flange_a.tau w_a > 0``), ``tauLoss =
+    (1 - eta_mf1) flange_a.tau + tau_bf1 sign(w_a)``; while flange b drives, ``tauLoss = (1 - 1/eta_mf2) flange_a.tau
+    + tau_bf2 sign(w_a)``. At rest the losses hold the gear, up to these values. A row of `lossTable` is ``(|w_a|,
+    eta_mf1, eta_mf2, |tau_bf1|, |tau_bf2|)``.
+
+    >>> table = [[0, 0.5, 0.5, 0, 0]]
+    >>> model = assemble("drive.flange - one.flange_a", "one.flange_b - gear.flange_a", "gear.flange_b - two.flange_a",
+    ...                  drive=ConstantTorque(tau_constant=5.0), gear=LossyGear(ratio=2.0, lossTable=table),
+    ...                  one=Inertia(J=1.0, phi=start(0.0, fixed=True), w=start(0.0, fixed=True)), two=Inertia(J=8.0))
+    >>> close(run(model, at=[0.5, 1.0])["one.w"], [0.5, 1.0])  # 5/(1 + 8/(0.5 2^2))
+    True
+
+    Source: Modelica.Mechanics.Rotational.Components.LossyGear; Pelchen, Schweiger and Otter, Modeling and simulating
+    the efficiency of gearboxes and of planetary gearboxes, Modelica Conference 2002.
+    """
+
+    ratio: Parameter = Parameter(1.0, unit="1", doc="transmission ratio flange_a.phi / flange_b.phi")
+    lossTable: Sequence[Sequence[float]] = ((0.0, 1.0, 1.0, 0.0, 0.0),)
+    unitAngularAcceleration: Parameter = Parameter(1.0, unit="rad/s2", doc="scale of sa as an acceleration")
+    unitTorque: Parameter = Parameter(1.0, unit="N*m", doc="scale of sa as a torque")
+    phi_a: Variable = Variable(unit="rad", doc="angle between flange a and the support")
+    phi_b: Variable = Variable(unit="rad", doc="angle between flange b and the support")
+    w_a: Variable = Variable(unit="rad/s", doc="angular velocity of flange a relative to the support")
+    a_a: Variable = Variable(unit="rad/s2", doc="angular acceleration of flange a relative to the support")
+    tau_a: Variable = Variable(unit="N*m", doc="torque at flange a")
+    tauLoss: Variable = Variable(unit="N*m", doc="torque lost, in terms of flange a")
+    speed: Variable = Variable(doc="speed of flange a")
+    sa: Variable = Variable(doc="curve parameter: loss while stuck, shifted acceleration while moving")
+    startForward: Discrete = Discrete(doc="whether forward rolling starts")
+    startBackward: Discrete = Discrete(doc="whether backward rolling starts")
+    locked: Discrete = Discrete(doc="whether the gear is stuck")
+    mode: Discrete = Discrete(start=UNKNOWN, doc="1 forward, 0 stuck, -1 backward, 3 unknown")
+
+    def losses(self, speed: Expr) -> tuple[Expr, Expr]:
+        """Torques lost while rolling forward and backward, at this speed."""
+        at = [row[0] for row in self.lossTable]
+        eta1, eta2, bearing1, bearing2 = (
+            blocks.interpolate(speed, at, [row[k] for row in self.lossTable]) for k in range(1, 5)
+        )
+        drives = self.tau_a >= 0
+        forth, back = (1 - eta1) * self.tau_a, (1 - 1 / eta2) * self.tau_a
+        unit = self.unitTorque
+        forward = where(drives, forth + unit * bearing1, back + unit * bearing2)
+        return forward, where(drives, back - unit * bearing2, forth - unit * bearing1)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.phi_a == self.flange_a.phi - self.phi_support
+        yield self.phi_b == self.flange_b.phi - self.phi_support
+        yield self.phi_a == self.ratio * self.phi_b
+        yield self.w_a == der(self.phi_a)
+        yield self.a_a == der(self.w_a)
+        yield self.tau_a == self.flange_a.tau
+        yield self.flange_b.tau == -self.ratio * (self.tau_a - self.tauLoss)
+        yield self.speed == ac.noevent(ac.abs(self.w_a))
+        yield self.lossPower == self.tauLoss * self.w_a
+        yield from self._rolling()
+
+    def _rolling(self) -> Equations:
+        """State machine: rolling forward, rolling backward, or stuck."""
+        sa, was = self.sa, pre(self.mode)
+        forward_most, backward_most = self.losses(self.speed)
+        highest, lowest = (loss / self.unitTorque for loss in self.losses(0.0 * self.speed))
+        forward, stuck, backward, held = was == FORWARD, was == STUCK, was == BACKWARD, pre(self.locked) > 0.5
+        begins, returns = ac.initial() & (self.w_a > 0), ac.initial() & (self.w_a < 0)
+        goes_on, comes_on = pre(self.startForward) > 0.5, pre(self.startBackward) > 0.5
+        yield self.startForward == where((stuck & (held | goes_on) & (sa > highest)) | begins, 1.0, 0.0)
+        yield self.startBackward == where((stuck & (held | comes_on) & (sa < lowest)) | returns, 1.0, 0.0)
+        going, coming = self.startForward > 0.5, self.startBackward > 0.5
+        yield self.locked == where(forward | going | backward | coming, 0.0, 1.0)
+        locked, ahead = self.locked > 0.5, going | (forward & ~coming)
+        rolling = where(ahead, forward_most, backward_most)
+        yield self.tauLoss == where(locked, sa * self.unitTorque, rolling)
+        yield self.a_a == self.unitAngularAcceleration * where(locked, 0.0, sa - where(ahead, highest, lowest))
+        slides, slips = (forward | going) & (self.w_a > 0), (backward | coming) & (self.w_a < 0)
+        yield self.mode == where(slides, FORWARD, where(slips, BACKWARD, STUCK))
