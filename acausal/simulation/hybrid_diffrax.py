@@ -39,6 +39,8 @@ TIME = 1e-14
 """Relative and absolute width of the interval in which an event is located."""
 TINY = 1e-200
 """Slack of what is at its switch exactly: just not zero."""
+SAME = 1e-13
+"""Output times this close to that of an event, relative to it, are the event's: they show what follows."""
 NARROWEST = 1e-6
 """Steps shorter than this part of the rest of the run are not refused."""
 
@@ -148,7 +150,8 @@ def simulate_events(
         t_end = float(last[0])
         z_end = np.concatenate([np.asarray(last[1]), np.asarray(last[2])])
         happened = name == "event_occurred"
-        before = remaining < t_end if happened or end_open else remaining <= t_end
+        until = t_end - SAME * abs(t_end) if happened else t_end
+        before = remaining < until if happened or end_open else remaining <= until
         n = int(before.sum())
         found = np.concatenate([np.asarray(x), np.asarray(w)], axis=1)[:n]
         named = {k: int(c) for k, c in zip(("steps", "accepted", "rejected"), counts, strict=True)}

@@ -18,9 +18,9 @@ static void ac_hermite(
     for (int i = AC_NX; i < AC_N; i++) out[i] = (1.0 - s) * y0[i] + s * y1[i];
 }
 
-/* Whether what is due at time `at` is saved in a step that ends at t1: what is saved at an event is what follows it. */
+/* Whether what is due at time `at` is saved in a step that ends at t1. */
 static int ac_due(const ac_problem *q, double at, double t1, double direction, int event) {
-    return direction * (at - t1) <= (event || (q->open && t1 == q->t1) ? -1e-300 : 0.0);
+    return direction * (at - t1) <= ac_until(q, t1, event, t1 == q->t1);
 }
 
 #if AC_NR > 0

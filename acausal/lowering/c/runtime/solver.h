@@ -306,6 +306,13 @@ static void ac_save(const ac_problem *q, long n, double s, ac_work *w, void *tan
 #endif
 }
 
+/* How far from the end of a step, at t1, the last time may be that is saved in it. What is saved at an event is what
+   follows it, and a time that differs from that of the event by rounding is the event's. */
+static double ac_until(const ac_problem *q, double t1, int event, int last) {
+    if (event) return -1e-13 * fabs(t1) - 1e-300;
+    return q->open && last ? -1e-300 : 0.0;
+}
+
 static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
     const double direction = q->t1 >= q->t0 ? 1.0 : -1.0;
     double t = q->t0, error_before = 1e-4, h_before = 0.0;
@@ -382,7 +389,7 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
 #if AC_NG > 0
         ac_project(w, tangents, t1);
 #endif
-        const double until = event || (q->open && last) ? -1e-300 : 0.0; /* what is saved at an event is what follows */
+        const double until = ac_until(q, t1, event, last);
         if (q->saved < q->n_save && direction * (q->save[q->saved] - t1) <= until) {
             for (int r = 0; r < 3; r++) ac_combine(w, ac_H[r], NULL, w->v[r]);
             for (; q->saved < q->n_save && direction * (q->save[q->saved] - t1) <= until; q->saved++)
