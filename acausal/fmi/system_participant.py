@@ -54,6 +54,7 @@ class SystemParticipant:
 
     Raises:
         UnknownNameError: an output that the model does not have.
+        CoSimulationError: a model with events.
     """
 
     can_reject = True
@@ -74,6 +75,11 @@ class SystemParticipant:
     ) -> None:
         self.system = system
         self.name = name or system.name
+        if system.hybrid is not None:
+            raise CoSimulationError(
+                f"participant `{self.name}` has events, which a system in this process does not handle: export it with "
+                "`acausal.fmi.export` and take the unit, which handles its own"
+            )
         self.parameters, self.initial = dict(parameters or {}), dict(initial or {})
         self.polynomials = {p.name: p for p in polynomials}
         self.inputs = (*system.input_names, *self.polynomials)
