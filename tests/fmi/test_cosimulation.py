@@ -188,3 +188,18 @@ def test_jax_inside(masses):
     for solver, dt in ((diffrax.Tsit5(), None), (ac.RK4(), 0.01), (ac.Rodas5P(), None)):
         other = masses.cosimulation(record=["one.s"], step=0.05, solver=solver, dt=dt).simulate(1.0)
         np.testing.assert_allclose(other["one.s"], native["one.s"], atol=1e-5)
+
+
+@pytest.mark.parametrize("method", ["jacobi", "gauss-seidel"])
+def test_three_participants_in_a_ring(decay, method):
+    """``tau y_i' = y_{i-1} - y_i``: the sum stays, the differences die out; against the matrix exponential."""
+    from scipy.linalg import expm
+
+    starts = np.array([3.0, 0.0, 0.0])
+    parts = {n: SystemParticipant(decay, initial={"y": y}) for n, y in zip("abc", starts, strict=True)}
+    ring = [("a.y", "b.u"), ("b.y", "c.u"), ("c.y", "a.u")]
+    result = CoSimulation(parts, ring, step=0.005, method=method, order=1).simulate(1.0)
+    matrix = (np.roll(np.eye(3), -1, axis=1) - np.eye(3)) / 0.5
+    exact = np.array([expm(matrix * t) @ starts for t in result.t])
+    found = np.stack([result[f"{n}.y"] for n in "abc"], axis=1)
+    np.testing.assert_allclose(found, exact, atol=5e-3)
