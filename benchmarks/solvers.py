@@ -56,8 +56,8 @@ def main(words: list[str] | None = None) -> int:
             rows.append((f"{name}, rtol {rtol:.0e}", *figures, f"{_error(solution, reference):.1e}", compiled))
 
     text = (
-        f"The extended compliant crane (12 states), scenario *sine*, 0 to {T_END:g} s, diffrax engine on the same vector "
-        f"field, without the location of events: run time of the compiled solve, "
+        f"The extended compliant crane (12 states), scenario *sine*, 0 to {T_END:g} s, both in the diffrax engine, "
+        "on one vector field, without the location of events: run time of the compiled solve, "
         f"the best of {chosen.repeat} alternating runs. *Error* is the largest deviation of any state from a run at "
         "rtol 1e-10, relative to its range. Compiling (tracing and XLA) happens once for each solver."
     )
