@@ -258,20 +258,25 @@ def numeric(node: Expr) -> Expr:
     return make("where", (node, ONE, ZERO)) if node.op in CONDITIONS else node
 
 
+ROUNDING = 4e-16
+"""A sum of numbers that is this small beside them is zero: what is left of ``0.1 + 0.2 - 0.3`` is no coefficient."""
+
+
 def add(*terms: Expr) -> Expr:
     """Sum, flat, with constants folded and ``x - x`` cancelled."""
     flat: list[Expr] = []
     for term in map(numeric, terms):
         flat.extend(term.args if term.op == "add" else (term,))
-    constant = 0.0
+    constant = size = 0.0
     kept: list[Expr] = []
     for term in flat:
         if term.op == "const":
             constant += term.value
+            size += abs(term.value)
         else:
             kept.append(term)
     kept = _cancel(kept)
-    if constant != 0.0:
+    if constant != 0.0 and not abs(constant) <= ROUNDING * size < math.inf:
         kept.append(const(constant))
     if not kept:
         return ZERO

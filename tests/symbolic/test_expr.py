@@ -202,3 +202,10 @@ def test_an_equation_is_neither_true_nor_false() -> None:
     assert (x == y).residual is x - y
     assert str(1 + x == 3) == "x + 1 = 3"
     assert str((3 == x).residual) == "x - 3"
+
+
+def test_what_rounding_leaves_of_a_sum_of_numbers_is_zero() -> None:
+    x = var(0)
+    assert add(x, const(0.1), const(0.2), const(-0.3)) is x
+    assert add(x, const(1.0), const(-1.0 + 1e-12)) is not x
+    assert add(const(float("inf")), const(1.0)).value == float("inf")
