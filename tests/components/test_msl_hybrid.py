@@ -32,6 +32,7 @@ def run(make: Callable[..., ac.Component], t: np.ndarray, engine: Any, *argument
 def test_coupled_clutches(engine: Any) -> None:
     """Momentum is that of the drive; friction obeys its law, brings speeds together, and never gives energy."""
     t = np.linspace(0.0, 1.5, 301)
+    t = t[np.isin(t, (0.4, 0.9), invert=True)]  # there the clutches are pressed: which side is given is rounding
     solution = run(msl.coupled_clutches, t, engine)
     w = [np.asarray(solution[f"J{k}.w"]) for k in (1, 2, 3, 4)]
     assert_allclose(sum(w), 10.0 + (1 - np.cos(10 * np.pi * t)) / np.pi, rtol=1e-8)
