@@ -113,6 +113,13 @@ class Hybrid:
         return np.where(ids < len(kinds), kinds[np.minimum(ids, len(kinds) - 1)] != Kind.DISCRETE, True)
 
     @cached_property
+    def has_modes_only(self) -> bool:
+        """Whether conditions have modes, and nothing else happens at events."""
+        return bool(self.relations) and not (
+            self.floors or self.pres or self.triggers or self.samples or self.reinits or self.asserts or self.ends
+        )
+
+    @cached_property
     def moving_roots(self) -> list[Bools]:
         """Which of the variables in each function whose change of sign is an event move between events."""
         return [self.moves(family.var_rows) for family in self.roots.families]

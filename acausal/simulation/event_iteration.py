@@ -184,6 +184,10 @@ class EventIteration:
         self.equations.feed(t, p)
         z = self._settled(t, z, p)
         self.moves = [Move(t, z, p.copy(), [], z)]
+        if self.hybrid.has_modes_only and roots is not None and not samples:
+            switched = self._switched(t, z, p, roots)
+            if switched is not None:
+                return switched
         left = Point(t, self.equations.values(t, z, p), p)
         self._put_lefts(p, left)
         self._sample(p, samples or [], 1.0)
@@ -196,6 +200,26 @@ class EventIteration:
             self.before = self._conditions(point)
         outcome.changed = [*changed, *(samples or []), *outcome.changed]
         return outcome
+
+    def _switched(self, t: float, z: Floats, p: Floats, roots: Any) -> Outcome | None:
+        """The event of a model that has nothing but modes, if no other mode follows; None if one does."""
+        hybrid = self.hybrid
+        modes = np.unique(hybrid.roots.slots[roots])
+        p = p.copy()
+        p[modes] = 1.0 - p[modes]
+        z = self._settled(t, z, p)
+        values = self.equations.values(t, z, p)
+        point = Point(t, values, p)
+        for piece, strict in zip(hybrid.relations, hybrid.strict, strict=True):
+            g = piece.values(point)[0]
+            off = ((g < 0.0) if strict else (g <= 0.0)) != (p[piece.slots] != 0.0)
+            if off.any():  # what was found to switch may still be on its old side by rounding
+                forced = np.isin(piece.slots[off], modes)
+                if not (forced & (np.abs(g[off]) <= NOISE * self._scale(piece, point)[off])).all():
+                    return None
+        self.moves.append(Move(t, z, p.copy(), [], z))
+        self._rounding(values)
+        return Outcome(z, p, values, None, modes.tolist())
 
     def _sample(self, p: Floats, slots: list[int], value: float) -> None:
         for slot in slots:
