@@ -55,7 +55,7 @@ class Unit:
         self.version = self.root.attrib["fmiVersion"]
         self.token = self.root.attrib["guid" if self.version == "2.0" else "instantiationToken"].encode()
         self.reference: dict[str, int] = {}
-        for v in self.root.find("ModelVariables") or ():
+        for v in self.root.iterfind("ModelVariables/*"):
             for name in (v, *v.findall("Alias")):
                 self.reference[name.attrib["name"]] = int(v.attrib["valueReference"])
         interface = self.root.find("CoSimulation")

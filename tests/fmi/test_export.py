@@ -37,7 +37,7 @@ def archive(unit: Unit) -> str:
 
 def variable(unit: Unit, name: str) -> dict[str, str]:
     """Attributes of a variable, those of its type included."""
-    found = next(v for v in unit.root.find("ModelVariables") or () if v.attrib["name"] == name)
+    found = next(v for v in unit.root.iterfind("ModelVariables/*") if v.attrib["name"] == name)
     return {**found.attrib, **{k: x for child in found for k, x in child.attrib.items() if child.tag == "Real"}}
 
 
@@ -91,7 +91,7 @@ def test_units_in_base_units(unit, version):
     units = {
         u.attrib["name"]: b.attrib if (b := u.find("BaseUnit")) is not None else None
         for one in (unit(Oscillator, version), unit(Chain, version))
-        for u in one.root.find("UnitDefinitions") or ()
+        for u in one.root.iterfind("UnitDefinitions/*")
     }
     assert units["N.s/m"] == {"kg": "1", "s": "-1"}
     assert units["bar"] == {"kg": "1", "m": "-1", "s": "-2", "factor": "100000.0"}

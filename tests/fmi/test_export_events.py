@@ -49,7 +49,7 @@ def test_fmpy_has_no_complaint(model, version):
 def test_discrete_variables_and_indicators_in_the_description():
     three, two = exported(Thermostat, "3.0"), exported(Thermostat, "2.0")
     for unit in (three, two):
-        on = next(v for v in unit.root.find("ModelVariables") or () if v.attrib["name"] == "on")
+        on = next(v for v in unit.root.iterfind("ModelVariables/*") if v.attrib["name"] == "on")
         assert on.attrib["variability"] == "discrete"
     assert two.root.attrib["numberOfEventIndicators"] == "3"
     rows = three.root.findall("ModelStructure/EventIndicator")

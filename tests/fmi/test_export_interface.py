@@ -33,10 +33,10 @@ def unit():
 # ---- derivatives ----------------------------------------------------------------------------------
 def states(unit: Unit) -> list[str]:
     names = {r: n for n, r in reversed(unit.reference.items())}
-    table = [v.attrib for v in unit.root.find("ModelVariables") or ()]
+    table = [v.attrib for v in unit.root.iterfind("ModelVariables/*")]
     if unit.version == "3.0":
         return [names[int(v["derivative"])] for v in table if "derivative" in v]
-    rows = unit.root.find("ModelVariables") or ()
+    rows = unit.root.findall("ModelVariables/*")
     return [rows[int(r.attrib["derivative"]) - 1].attrib["name"] for v in rows for r in v if "derivative" in r.attrib]
 
 
