@@ -91,9 +91,8 @@ class NativeLibrary:
         self.tables = list(tables)
         self.index = (c_void_p * max(len(self.tables), 1))(*(a.ctypes.data for a in self.tables))
         self.nominal = None if nominal is None else np.ascontiguousarray(nominal, float)
-        self.library = lib = ctypes.CDLL(str(path))
-        # calls of microseconds keep the interpreter's lock: to give it up and wait for it again costs threads more
-        self.brief = lib if self.tables else ctypes.PyDLL(str(path))
+        self.library = ctypes.CDLL(str(path))
+        lib = self.library
         lib.acausal_size.restype = c_long
         sizes = [int(lib.acausal_size(k)) for k in range(9)]
         self.n, self.n_x, self.n_p, self.n_i, n_iz, self.n_all, self.lanes, size, self.n_roots = sizes
@@ -101,9 +100,8 @@ class NativeLibrary:
             raise AcausalError("the compiled model and this version of acausal do not fit; empty the cache folder")
         self.tangents = tangents
         lib.acausal_run.argtypes = (POINTER(_Problem),)
-        for each in (lib, self.brief):
-            each.acausal_observe.argtypes = (_P, POINTER(_Signal), c_void_p, c_long, _P, _P, _P)
-        self.brief.acausal_settle.argtypes = (_P, POINTER(_Signal), c_void_p, _P, c_double, _P)
+        lib.acausal_settle.argtypes = (_P, POINTER(_Signal), c_void_p, _P, c_double, _P)
+        lib.acausal_observe.argtypes = (_P, POINTER(_Signal), c_void_p, c_long, _P, _P, _P)
         if not self.tables:
             self._bind_start(n_iz)
 
@@ -114,34 +112,33 @@ class NativeLibrary:
         self.start_rows, self.start_columns = (
             np.ctypeslib.as_array(lib.acausal_start_pattern(k), (max(n_iz, 1),))[:n_iz].copy() for k in (0, 1)
         )
+        lib.acausal_parameters.argtypes = (c_void_p, _P)
+        lib.acausal_starts.argtypes = (_P, _P)
+        lib.acausal_conditions.argtypes = (_P, c_double, _P, _P, _P)
         lib.acausal_start.argtypes = (_P, c_double, c_void_p, _P, _P, c_int, _P)
         lib.acausal_start.restype = c_double
-        brief = self.brief
-        brief.acausal_parameters.argtypes = (c_void_p, _P)
-        brief.acausal_starts.argtypes = (_P, _P)
-        brief.acausal_conditions.argtypes = (_P, c_double, _P, _P, _P)
         for name in ("parameters", "starts", "conditions"):
-            getattr(brief, f"acausal_{name}").restype = None
+            getattr(lib, f"acausal_{name}").restype = None
         if tangents:
-            brief.acausal_parameters_tangent.argtypes = (c_void_p, _P, _P)
-            brief.acausal_starts_tangent.argtypes = (_P, _P, _P)
-            brief.acausal_conditions_tangent.argtypes = (_P, _P, c_double, _P, _P, _P)
+            lib.acausal_parameters_tangent.argtypes = (c_void_p, _P, _P)
+            lib.acausal_starts_tangent.argtypes = (_P, _P, _P)
+            lib.acausal_conditions_tangent.argtypes = (_P, _P, c_double, _P, _P, _P)
             for name in ("parameters", "starts", "conditions"):
-                getattr(brief, f"acausal_{name}_tangent").restype = None
+                getattr(lib, f"acausal_{name}_tangent").restype = None
 
     # ---- parameters and start ---------------------------------------------------------------------
     def parameters(self, given: NDArray[np.uint8], p: Floats) -> None:
         """Dependent parameters in place, except those that are `given` (a mask)."""
-        self.brief.acausal_parameters(_of(given), _of(p))
+        self.library.acausal_parameters(_of(given), _of(p))
 
     def starts(self, p: Floats, starts: Floats) -> None:
         """Start values that depend on parameters, in place."""
-        self.brief.acausal_starts(_of(p), _of(starts))
+        self.library.acausal_starts(_of(p), _of(starts))
 
     def conditions(self, p: Floats, t: float, z: Floats) -> tuple[Floats, Floats]:
         """What must vanish at the start (n_i,), and its derivatives (n_i, n)."""
         value, entries = np.empty(self.n_i), np.empty(len(self.start_rows))
-        self.brief.acausal_conditions(_of(p), t, _of(z), _of(value), _of(entries))
+        self.library.acausal_conditions(_of(p), t, _of(z), _of(value), _of(entries))
         matrix = np.zeros((self.n_i, self.n))
         matrix[self.start_rows, self.start_columns] = entries
         return value, matrix
@@ -168,16 +165,16 @@ class NativeLibrary:
 
     def parameters_tangent(self, given: NDArray[np.uint8], p: Floats, dp: Floats) -> None:
         """Tangents (n_p, lanes) of dependent parameters, in place."""
-        self.brief.acausal_parameters_tangent(_of(given), _of(p), _of(dp))
+        self.library.acausal_parameters_tangent(_of(given), _of(p), _of(dp))
 
     def starts_tangent(self, p: Floats, dp: Floats, ds: Floats) -> None:
         """Tangents of start values, in place."""
-        self.brief.acausal_starts_tangent(_of(p), _of(dp), _of(ds))
+        self.library.acausal_starts_tangent(_of(p), _of(dp), _of(ds))
 
     def conditions_tangent(self, p: Floats, dp: Floats, t: float, z: Floats, dz: Floats) -> Floats:
         """Tangents (n_i, lanes) of what must vanish at the start."""
         out = np.empty((self.n_i, self.lanes))
-        self.brief.acausal_conditions_tangent(_of(p), _of(dp), t, _of(z), _of(dz), _of(out))
+        self.library.acausal_conditions_tangent(_of(p), _of(dp), t, _of(z), _of(dz), _of(out))
         return out
 
     # ---- run --------------------------------------------------------------------------------------
@@ -239,15 +236,14 @@ class NativeLibrary:
         """The algebraic unknowns in z (n,) from its states, in place; False if that fails."""
         held = _signals(signals)
         nominal = None if self.nominal is None else _of(self.nominal)
-        return not self.brief.acausal_settle(_of(p), held[0], self.index, nominal, t, _of(z))
+        return not self.library.acausal_settle(_of(p), held[0], self.index, nominal, t, _of(z))
 
     def observe(self, p: Floats, signals: Sequence[Signal], t: Floats, z: Floats) -> Floats:
         """Every variable of the reduced model at times t (n_t,): (n_t, n_all); NaN where it is not computed."""
         out = np.full((len(t), self.n_all), np.nan)
         t, z = np.ascontiguousarray(t, float), np.ascontiguousarray(z, float)
         held = _signals(signals)
-        library = self.brief if len(t) == 1 else self.library
-        if library.acausal_observe(_of(p), held[0], self.index, len(t), _of(t), _of(z), _of(out)):
+        if self.library.acausal_observe(_of(p), held[0], self.index, len(t), _of(t), _of(z), _of(out)):
             raise MemoryError("no memory to evaluate all variables")
         return out
 
