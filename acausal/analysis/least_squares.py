@@ -33,6 +33,13 @@ class _Point(eqx.Module):
     jacobian: Any
     free: Any
 
+    def scaled(self) -> tuple[Any, Any]:
+        """The Jacobian of what may move with columns of length one, and their lengths; 1 for a column of zeros."""
+        jacobian = jnp.where(self.free, self.jacobian, 0.0)
+        length = jnp.linalg.norm(jacobian, axis=0)
+        length = jnp.where(length > 0, length, 1.0)
+        return jacobian / length, length
+
 
 class _BoundedDescent(optx.AbstractDescent[Any, Any, _Point]):
     """Damped Gauss-Newton steps between bounds.
@@ -58,10 +65,8 @@ class _BoundedDescent(optx.AbstractDescent[Any, Any, _Point]):
         return _Point(y, f_info.residual, jacobian, ~stuck)
 
     def step(self, step_size: Any, state: _Point) -> tuple[Any, Any]:
-        jacobian = jnp.where(state.free, state.jacobian, 0.0)
-        length = jnp.linalg.norm(jacobian, axis=0)
-        length = jnp.where(length > 0, length, 1.0)
-        damped = jnp.concatenate([jacobian / length, jnp.eye(len(length)) / jnp.sqrt(step_size)])
+        jacobian, length = state.scaled()
+        damped = jnp.concatenate([jacobian, jnp.eye(len(length)) / jnp.sqrt(step_size)])
         wanted = jnp.concatenate([-state.residual, jnp.zeros(len(length))])
         solution = lx.linear_solve(lx.MatrixLinearOperator(damped), wanted, lx.QR(), throw=False)
         moved = jnp.where(state.free, solution.value / length, 0.0)
@@ -87,9 +92,7 @@ class _Statistical(optx.AbstractGaussNewton[Any, Any, Any]):
     def step(self, *given: Any, **named: Any) -> Any:
         y, state, aux = super().step(*given, **named)
         point = state.descent_state
-        jacobian = jnp.where(point.free, point.jacobian, 0.0)
-        length = jnp.linalg.norm(jacobian, axis=0)
-        basis, strength, _ = jnp.linalg.svd(jacobian / jnp.where(length > 0, length, 1.0), full_matrices=False)
+        basis, strength, _ = jnp.linalg.svd(point.scaled()[0], full_matrices=False)
         projected = jnp.where(strength > INDEPENDENT, point.residual @ basis, 0.0)
         done = state.terminate | (jnp.sum(projected**2) <= self.tolerance**2)
         return y, eqx.tree_at(lambda s: s.terminate, state, done), aux
