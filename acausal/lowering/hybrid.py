@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -41,7 +42,7 @@ class Piece:
         """Values of all forms at a point, each (n,)."""
         n = self.rows.size
         found: list[Any] = []
-        for v in point.evaluate(self.forms, self.rows, self.order):
+        for v in point.evaluate(self):
             v = np.asarray(v, float)
             found.append(v if v.shape == (n,) else np.broadcast_to(v, (n,)))
         return found
@@ -113,22 +114,37 @@ class Hybrid:
         return np.where(ids < len(kinds), kinds[np.minimum(ids, len(kinds) - 1)] != Kind.DISCRETE, True)
 
     @cached_property
-    def has_modes_only(self) -> bool:
-        """Whether conditions have modes, and nothing else happens at events."""
-        return bool(self.relations) and not (
-            self.floors or self.pres or self.triggers or self.samples or self.reinits or self.asserts or self.ends
-        )
-
-    @cached_property
     def moving_roots(self) -> list[Bools]:
         """Which of the variables in each function whose change of sign is an event move between events."""
         return [self.moves(family.var_rows) for family in self.roots.families]
 
-    def follows(self, piece: Piece) -> bool:
-        """Whether expressions depend on discrete quantities only: they change with those and not by themselves."""
+    @cached_property
+    def moving_lefts(self) -> list[bool]:
+        """For each of `pres` whether what it is the left limit of moves between events."""
+        return [bool(self.moves(piece.rows.var_rows).any()) for piece in self.pres]
+
+    @cached_property
+    def following(self) -> list[bool]:
+        """For each of `relations` whether it depends on discrete quantities only: it changes with those and not by
+        itself."""
+        return [self._follows(piece) for piece in self.relations]
+
+    def conditions(self, *, following: bool) -> Iterator[tuple[Piece, bool]]:
+        """The relations that follow discrete quantities, or the others; and whether each is strict."""
+        for piece, strict, follows in zip(self.relations, self.strict, self.following, strict=True):
+            if follows == following:
+                yield piece, strict
+
+    def _follows(self, piece: Piece) -> bool:
         ids = piece.rows.var_rows
         timed = any(leaf.op == "time" for leaf in leaves(*piece.forms))
         return bool(ids.shape[1]) and not timed and not self.moves(ids).any()
+
+    @cached_property
+    def root_pieces(self) -> list[Piece]:
+        """The functions whose change of sign is an event."""
+        none = np.zeros(0, np.int64)
+        return [Piece((family.residual,), family, none) for family in self.roots.families]
 
     def text(self, slot: int) -> str:
         """What a slot is about, with component and source line."""
@@ -153,9 +169,9 @@ class Point:
     def __init__(self, t: float, values: Floats, p: Floats) -> None:
         self.t, self.v, self.p = t, values, p
 
-    def evaluate(self, forms: tuple[Expr, ...], rows: Family, order: list[Expr]) -> list[Any]:
-        """Values of expressions, each a number or (n,); `order` has all nodes below them, operands first."""
-        values: dict[int, Any] = {}
+    def evaluate(self, piece: Piece) -> list[Any]:
+        """Values of its expressions, each a number or (n,)."""
+        rows, values = piece.rows, dict[int, Any]()
 
         def leaf(node: Expr) -> Any:
             if node.op == "time":
@@ -165,8 +181,8 @@ class Point:
             return self.v[rows.var_rows[:, node.value]]
 
         with np.errstate(all="ignore"):
-            evaluate_in_order(order, leaf, np, values)
-        return [values[id(form)] for form in forms]
+            evaluate_in_order(piece.order, leaf, np, values)
+        return [values[id(form)] for form in piece.forms]
 
 
 def make_hybrid(flat: FlatModel, representative: Ints, sign: Ints) -> Hybrid | None:

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from acausal.lowering.hybrid import Hybrid, Point
-from acausal.symbolic.traverse import postorder
 
 from .event_iteration import Equations
 from .native_library import Floats
@@ -18,9 +17,7 @@ def sides(hybrid: Hybrid, equations: Equations, t: float, z: Floats, p: Floats) 
     p = p.copy()
     equations.feed(t, p)
     point = Point(t, equations.values(t, z, p), p)
-    values = [point.evaluate((f.residual,), f, postorder((f.residual,)))[0] for f in hybrid.roots.families]
-    parts = [np.broadcast_to(v, (f.size,)) for v, f in zip(values, hybrid.roots.families, strict=True)]
-    g = np.concatenate([np.zeros(0), *parts])
+    g = np.concatenate([np.zeros(0), *(piece.values(point)[0] for piece in hybrid.root_pieces)])
     return np.where(modes(hybrid, p), g, -g)
 
 

@@ -106,9 +106,6 @@ class EventIteration:
         self.forced: list[int] = []
         self.noise: Floats = np.zeros(hybrid.roots.count)
         self.largest: Floats = np.zeros(hybrid.flat.slots.count)
-        self.levels = levels(problem.lowered)
-        self.moving = [bool(hybrid.moves(piece.rows.var_rows).any()) for piece in hybrid.pres]
-        self.follow = [hybrid.follows(piece) for piece in hybrid.relations]
 
     # ---- pieces -----------------------------------------------------------------------------------
     def _conditions(self, point: Point) -> list[Any]:
@@ -117,9 +114,7 @@ class EventIteration:
     def _modes(self, point: Point, p: Floats) -> list[int]:
         """Put the modes that follow from values that move into p; the slots that change."""
         changed: list[int] = []
-        for piece, strict, follows in zip(self.hybrid.relations, self.hybrid.strict, self.follow, strict=True):
-            if follows:
-                continue
+        for piece, strict in self.hybrid.conditions(following=False):
             g = piece.values(point)[0]
             new = ((g < 0.0) if strict else (g <= 0.0)).astype(float)
             if self.forced:  # what was found to switch may still be on its old side by rounding
@@ -135,10 +130,9 @@ class EventIteration:
     def _following(self, point: Point, p: Floats) -> list[int]:
         """Put the modes of conditions on discrete quantities into p; the slots that change."""
         changed: list[int] = []
-        for piece, strict, follows in zip(self.hybrid.relations, self.hybrid.strict, self.follow, strict=True):
-            if follows:
-                g = piece.values(point)[0]
-                changed += self._put(p, piece.slots, ((g < 0.0) if strict else (g <= 0.0)).astype(float))
+        for piece, strict in self.hybrid.conditions(following=True):
+            g = piece.values(point)[0]
+            changed += self._put(p, piece.slots, ((g < 0.0) if strict else (g <= 0.0)).astype(float))
         return changed
 
     @staticmethod
@@ -150,7 +144,7 @@ class EventIteration:
     def _put_lefts(self, p: Floats, point: Point) -> list[int]:
         """Put left limits into p; the slots that change, those of continuous quantities by more than rounding."""
         changed: list[int] = []
-        for piece, moves in zip(self.hybrid.pres, self.moving, strict=True):
+        for piece, moves in zip(self.hybrid.pres, self.hybrid.moving_lefts, strict=True):
             left, old = piece.values(point)[0], p[piece.slots]
             same = (old == left) | (np.isnan(old) & np.isnan(left))
             if moves:
@@ -184,10 +178,6 @@ class EventIteration:
         self.equations.feed(t, p)
         z = self._settled(t, z, p)
         self.moves = [Move(t, z, p.copy(), [], z)]
-        if self.hybrid.has_modes_only and roots is not None and not samples:
-            switched = self._switched(t, z, p, roots)
-            if switched is not None:
-                return switched
         left = Point(t, self.equations.values(t, z, p), p)
         self._put_lefts(p, left)
         self._sample(p, samples or [], 1.0)
@@ -200,26 +190,6 @@ class EventIteration:
             self.before = self._conditions(point)
         outcome.changed = [*changed, *(samples or []), *outcome.changed]
         return outcome
-
-    def _switched(self, t: float, z: Floats, p: Floats, roots: Any) -> Outcome | None:
-        """The event of a model that has nothing but modes, if no other mode follows; None if one does."""
-        hybrid = self.hybrid
-        modes = np.unique(hybrid.roots.slots[roots])
-        p = p.copy()
-        p[modes] = 1.0 - p[modes]
-        z = self._settled(t, z, p)
-        values = self.equations.values(t, z, p)
-        point = Point(t, values, p)
-        for piece, strict in zip(hybrid.relations, hybrid.strict, strict=True):
-            g = piece.values(point)[0]
-            off = ((g < 0.0) if strict else (g <= 0.0)) != (p[piece.slots] != 0.0)
-            if off.any():  # what was found to switch may still be on its old side by rounding
-                forced = np.isin(piece.slots[off], modes)
-                if not (forced & (np.abs(g[off]) <= NOISE * self._scale(piece, point)[off])).all():
-                    return None
-        self.moves.append(Move(t, z, p.copy(), [], z))
-        self._rounding(values)
-        return Outcome(z, p, values, None, modes.tolist())
 
     def _sample(self, p: Floats, slots: list[int], value: float) -> None:
         for slot in slots:
@@ -345,7 +315,7 @@ class EventIteration:
         for k, piece in enumerate(self.hybrid.relations):
             size = np.array([v[k] for v in values])
             moved = np.ptp(size, axis=0) > NOISE * np.abs(size).max(axis=0)
-            if not self.follow[k]:
+            if not self.hybrid.following[k]:
                 found += piece.slots[moved].tolist()
         return found
 
@@ -447,7 +417,8 @@ class EventIteration:
 
     def _may_follow(self, ids: Any) -> Any:
         """States that may jump with these variables: velocities with velocities, while positions stay."""
-        return self.levels[self.problem.lowered.schedule.states] <= self.levels[ids].max()
+        level = levels(self.problem.lowered)
+        return level[self.problem.lowered.schedule.states] <= level[ids].max()
 
     def _moved(self, t: float, z: Floats, p: Floats, ids: Any, wanted: Any, free: Any) -> Floats:
         """Consistent values near z with variables `ids` at the wanted values."""

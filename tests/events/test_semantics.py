@@ -361,3 +361,25 @@ def test_many_instances_have_their_own_events(engine: Any) -> None:
 def test_run_backward_is_refused(engine: Any) -> None:
     with pytest.raises(ac.SimulationError, match="forward in time only"):
         ac.compile(Switched()).simulate(-1.0, engine=engine)
+
+
+class Degenerate(Component):
+    """Coupled equations, of which two become the same on the left at t = 1; nothing but a mode changes there."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    a: Variable = Variable()
+    b: Variable = Variable()
+    c: Variable = Variable()
+    d: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield der(self.x) == -self.x + 1e-3
+        yield self.a + self.b + self.c == 1 + self.x
+        yield ac.where(ac.time < 1.0, 2.0, 1.0) * self.a + self.b + self.c == 2
+        yield self.a + 2 * self.b + self.c - self.d == 0
+        yield self.a - self.b + 3 * self.c + self.d == 1
+
+
+def test_equations_that_a_mode_makes_singular_are_an_error(engine: Any) -> None:
+    with pytest.raises(ac.SimulationError, match=r"At t = 1 s the equations are singular .*\s.*determines `a`, `b`"):
+        ac.compile(Degenerate()).simulate(2.0, saveat=5, engine=engine)

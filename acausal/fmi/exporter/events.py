@@ -74,7 +74,10 @@ def event_tables(system: System) -> list[str]:
         texts["end_text"] = [message for p, message in hybrid.ends for _ in range(p.rows.size)]
         texts["slot_text"] = [hybrid.flat.slot_text(hybrid.first + k) for k in range(slots.count)]
         numbers["root_first"], numbers["root_variable"], nominal = _scales(system, hybrid)
-        follows = {s: int(hybrid.follows(piece)) for piece in hybrid.relations for s in piece.slots.tolist()}
+        follows = {
+            s: int(follows)
+            for piece, follows in zip(hybrid.relations, hybrid.following, strict=True) for s in piece.slots.tolist()
+        }  # fmt: skip
         numbers["root_follows"] = [follows.get(s, 0) for s in hybrid.roots.slots.tolist()]
         numbers["root_moves"] = hybrid.moves(np.array(numbers["root_variable"], np.int64)).astype(int).tolist()
     counts = {
