@@ -239,7 +239,8 @@ class Output(Variable):
 class Discrete(Variable):
     """A quantity that changes at events only: assigned by `when`, or by an equation of discrete things and conditions.
 
-    Numbers, and 0 and 1 for false and true. `start` is its value before the first event, 0 by default.
+    Numbers, and 0 and 1 for false and true. `start` is its value before the first event, 0 by default; as that is an
+    exact value already, `fixed` adds nothing (Modelica Language Specification 8.6).
     """
 
     kind = Kind.DISCRETE

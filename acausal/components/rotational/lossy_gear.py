@@ -8,17 +8,18 @@ import acausal as ac
 from acausal import Discrete, Equations, Expr, Parameter, Variable, der, pre, where
 
 from .. import blocks, thermal
-from .friction import BACKWARD, FORWARD, STUCK, UNKNOWN
+from .friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN
 from .interfaces import PartialTwoFlangesAndSupport
 
 
 class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport):
     """Gear without inertia, ``phi_a = ratio phi_b``, with mesh efficiency and bearing friction.
 
-    ``flange_b.tau = -ratio (flange_a.tau - tauLoss)``. While flange a drives (``flange_a.tau w_a > 0``), ``tauLoss =
-    (1 - eta_mf1) flange_a.tau + tau_bf1 sign(w_a)``; while flange b drives, ``tauLoss = (1 - 1/eta_mf2) flange_a.tau
-    + tau_bf2 sign(w_a)``. At rest the losses hold the gear, up to these values. A row of `lossTable` is ``(|w_a|,
-    eta_mf1, eta_mf2, |tau_bf1|, |tau_bf2|)``.
+    ``flange_b.tau = -ratio (flange_a.tau - tauLoss)``. While flange a drives, ``tauLoss = (1 - eta_mf1) flange_a.tau +
+    tau_bf1 sign(w_a)``; while flange b drives, ``tauLoss = (1 - 1/eta_mf2) flange_a.tau + tau_bf2 sign(w_a)``. Flange a
+    drives where ``(flange_a.tau - tau_bf_a sign(w_a)) w_a > 0``: its bearing takes ``tau_bf_a = (tau_bf1 -
+    tau_bf2)/(eta_mf1 - 1/eta_mf2)``, where both losses are equal. At rest the losses hold the gear, up to these values.
+    A row of `lossTable` is ``(|w_a|, eta_mf1, eta_mf2, |tau_bf1|, |tau_bf2|)``.
 
     >>> table = [[0, 0.5, 0.5, 0, 0]]
     >>> model = assemble("drive.flange - one.flange_a", "one.flange_b - gear.flange_a", "gear.flange_b - two.flange_a",
@@ -46,7 +47,12 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
     startForward: Discrete = Discrete(doc="whether forward rolling starts")
     startBackward: Discrete = Discrete(doc="whether backward rolling starts")
     locked: Discrete = Discrete(doc="whether the gear is stuck")
-    mode: Discrete = Discrete(start=UNKNOWN, doc="1 forward, 0 stuck, -1 backward, 3 unknown")
+    mode: Discrete = Discrete(start=UNKNOWN, doc="2 free, 1 forward, 0 stuck, -1 backward, 3 unknown")
+
+    @property
+    def ideal(self) -> bool:
+        """Whether nothing is lost at any speed."""
+        return all(tuple(row[1:]) == (1.0, 1.0, 0.0, 0.0) for row in self.lossTable)
 
     def losses(self, speed: Expr) -> tuple[Expr, Expr]:
         """Torques lost while rolling forward and backward, at this speed."""
@@ -54,11 +60,12 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
         eta1, eta2, bearing1, bearing2 = (
             blocks.interpolate(speed, at, [row[k] for row in self.lossTable]) for k in range(1, 5)
         )
-        drives = self.tau_a >= 0
-        forth, back = (1 - eta1) * self.tau_a, (1 - 1 / eta2) * self.tau_a
-        unit = self.unitTorque
+        forth, back, unit = (1 - eta1) * self.tau_a, (1 - 1 / eta2) * self.tau_a, self.unitTorque
+        lost = 1 / eta2 - eta1  # zero where the teeth lose nothing; who drives makes no difference then
+        bearing_a = unit * ac.noevent(where(lost > 0, (bearing2 - bearing1) / ac.max(lost, 1e-12), bearing1 / 2))
+        drives, follows = self.tau_a >= bearing_a, self.tau_a >= -bearing_a
         forward = where(drives, forth + unit * bearing1, back + unit * bearing2)
-        return forward, where(drives, back - unit * bearing2, forth - unit * bearing1)
+        return forward, where(follows, back - unit * bearing2, forth - unit * bearing1)
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -71,7 +78,15 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
         yield self.flange_b.tau == -self.ratio * (self.tau_a - self.tauLoss)
         yield self.speed == ac.noevent(ac.abs(self.w_a))
         yield self.lossPower == self.tauLoss * self.w_a
-        yield from self._rolling()
+        yield from self._free() if self.ideal else self._rolling()
+
+    def _free(self) -> Equations:
+        """Nothing is lost, and nothing holds the gear."""
+        yield self.tauLoss == 0.0 * self.tau_a
+        yield self.a_a == self.unitAngularAcceleration * self.sa
+        for flag in (self.startForward, self.startBackward, self.locked):
+            yield flag == 0.0
+        yield self.mode == FREE
 
     def _rolling(self) -> Equations:
         """State machine: rolling forward, rolling backward, or stuck."""
