@@ -165,7 +165,7 @@ class Elaborator:
             return
         if not isinstance(value, Start):
             value = Start(value)
-        if value.fixed is not None and out.kind[k] != Kind.DISCRETE:  # its start is that of pre(...), which always holds
+        if value.fixed is not None and out.kind[k] != Kind.DISCRETE:  # its start always holds, for pre(...)
             out.fixed[k] = value.fixed
         if value.nominal is not None:
             out.nominal[k] = value.nominal

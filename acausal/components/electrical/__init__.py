@@ -103,5 +103,6 @@ from .voltage_sources import SawToothVoltage as SawToothVoltage
 from .voltage_sources import SignalVoltage as SignalVoltage
 from .voltage_sources import SineVoltage as SineVoltage
 from .voltage_sources import StepVoltage as StepVoltage
+from .voltage_sources import SupplyVoltage as SupplyVoltage
 from .voltage_sources import TableVoltage as TableVoltage
 from .voltage_sources import TrapezoidVoltage as TrapezoidVoltage

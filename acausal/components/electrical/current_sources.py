@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import acausal as ac
-from acausal import Equations, Input, Parameter, Variable, where
+from acausal import Equations, Input, Parameter, Variable, structural, where
 
 from .. import blocks
 from .interfaces import CurrentSource, OnePort, TwoPin
@@ -163,11 +163,13 @@ class PulseCurrent(CurrentSource):
     Source: Modelica.Electrical.Analog.Sources.PulseCurrent.
     """
 
+    nperiod: int = -1
     I: Parameter = Parameter(1.0, unit="A", doc="height")  # noqa: E741
     width: Parameter = Parameter(50.0, min=0.0, max=100.0, doc="width in per cent of the period")
     period: Parameter = Parameter(1.0, unit="s", min=1e-60, doc="time of one period")
     signalSource: blocks.SO = blocks.Pulse(
-        amplitude=I, width=width, period=period, offset=CurrentSource.offset, startTime=CurrentSource.startTime
+        amplitude=I, width=width, period=period, offset=CurrentSource.offset, startTime=CurrentSource.startTime,
+        nperiod=structural("nperiod"),
     )  # fmt: skip
 
 
@@ -183,10 +185,12 @@ class SawToothCurrent(CurrentSource):
     Source: Modelica.Electrical.Analog.Sources.SawToothCurrent.
     """
 
+    nperiod: int = -1
     I: Parameter = Parameter(1.0, unit="A", doc="height")  # noqa: E741
     period: Parameter = Parameter(1.0, unit="s", min=1e-60, doc="time of one period")
     signalSource: blocks.SO = blocks.SawTooth(
-        amplitude=I, period=period, offset=CurrentSource.offset, startTime=CurrentSource.startTime
+        amplitude=I, period=period, offset=CurrentSource.offset, startTime=CurrentSource.startTime,
+        nperiod=structural("nperiod"),
     )  # fmt: skip
 
 
@@ -202,6 +206,7 @@ class TrapezoidCurrent(CurrentSource):
     Source: Modelica.Electrical.Analog.Sources.TrapezoidCurrent.
     """
 
+    nperiod: int = -1
     I: Parameter = Parameter(1.0, unit="A", doc="height")  # noqa: E741
     rising: Parameter = Parameter(0.0, unit="s", min=0.0, doc="duration of the rise")
     width: Parameter = Parameter(0.5, unit="s", min=0.0, doc="duration of the plateau")
@@ -209,7 +214,7 @@ class TrapezoidCurrent(CurrentSource):
     period: Parameter = Parameter(1.0, unit="s", min=1e-60, doc="time of one period")
     signalSource: blocks.SO = blocks.Trapezoid(
         amplitude=I, rising=rising, width=width, falling=falling, period=period, offset=CurrentSource.offset,
-        startTime=CurrentSource.startTime, 
+        startTime=CurrentSource.startTime, nperiod=structural("nperiod"),
     )  # fmt: skip
 
 

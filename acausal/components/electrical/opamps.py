@@ -120,8 +120,9 @@ class OpAmp(Component):
 class OpAmpLimited(Component):
     """Operational amplifier of gain `V0` between its supplies, ``v_out = clip(V0 v_in, vns, vps)``.
 
-    With `useFirstOrder`, ``Tau dv_int/dt = V0 v_in - v_int``. With `useSupply` the pins `s_p` and `s_n` feed it with
-    all its power; without, the supplies are `Vps` and `Vns`.
+    With `useFirstOrder`, ``Tau dv_int/dt = V0 v_in - v_int``, which begins as `initOpAmp` says: ``"Linear"`` (``v_int =
+    clip(V0 v_in, vns, vps)``), ``"UpperLimit"`` (`vps`) or ``"LowerLimit"`` (`vns`). With `useSupply` the pins `s_p`
+    and `s_n` feed it with all its power; without, the supplies are `Vps` and `Vns`.
 
     >>> model = assemble("source.p - input.p", "input.n - feedback.p - amp.in_n", "feedback.n - amp.out",
     ...                  "source.n - amp.in_p - ground.p", input=Resistor(R=1e3), feedback=Resistor(R=5e3),
@@ -135,6 +136,7 @@ class OpAmpLimited(Component):
 
     useSupply: bool = False
     useFirstOrder: bool = False
+    initOpAmp: str = "Linear"
     in_p: Pin = Pin()
     in_n: Pin = Pin()
     out: Pin = Pin()
@@ -176,8 +178,12 @@ class OpAmpLimited(Component):
 
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()
+        starts = {"Linear": ac.clip(self.V0 * self.v_in, self.vns, self.vps), "UpperLimit": self.vps,
+                  "LowerLimit": self.vns}  # fmt: skip
+        if self.initOpAmp not in starts:
+            raise ac.DeclarationError(f"`initOpAmp={self.initOpAmp!r}` is none of {', '.join(starts)}")
         if self.useFirstOrder:
-            yield self.v_int == ac.clip(self.V0 * self.v_in, self.vns, self.vps)
+            yield self.v_int == starts[self.initOpAmp]
 
 
 class IdealizedOpAmpLimited(OpAmpLimited):

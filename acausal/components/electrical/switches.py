@@ -263,6 +263,8 @@ class ControlledIdealTwoWaySwitch(PartialTwoWaySwitch):
 class IdealTriac(Component):
     """Triac: two ideal thyristors in opposite directions, both fired by `fire1`, with an RC element across.
 
+    `idealThyristor` conducts from n to p, `idealThyristor1` from p to n.
+
     >>> model = assemble("source.p - triac.p", "triac.n - load.p", "source.n - load.n - ground.p",
     ...                  "gate.y - triac.fire1", triac=IdealTriac(Vknee=0.0, Cdis=1e-9), load=Resistor(R=5.0),
     ...                  gate=blocks.Step(startTime=0.2), source=SineVoltage(V=10.0, f=1.0), ground=Ground())
@@ -287,8 +289,8 @@ class IdealTriac(Component):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield connect(self.p, self.idealThyristor.p, self.idealThyristor1.n, self.resistor.p)
-        yield connect(self.n, self.idealThyristor.n, self.idealThyristor1.p, self.capacitor.n)
+        yield connect(self.n, self.idealThyristor.p, self.idealThyristor1.n, self.resistor.p)  # as drawn in the source
+        yield connect(self.p, self.idealThyristor.n, self.idealThyristor1.p, self.capacitor.n)
         yield connect(self.resistor.n, self.capacitor.p)
         yield connect(self.fire1, self.idealThyristor.fire, self.idealThyristor1.fire)
 

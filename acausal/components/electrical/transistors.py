@@ -6,11 +6,32 @@ from acausal import Equations, Expr, Parameter, Variable, conditional, der, noev
 from acausal import max as maximum
 from acausal import min as minimum
 
+from .. import thermal
 from .interfaces import ConditionalHeatPort, Pin
 from .semiconductors import BOLTZMANN, CHARGE, exlin2, powlin
 
 
-class PartialBipolar(ConditionalHeatPort, partial=True):
+class PartialTemperatureDependent(ConditionalHeatPort, partial=True):
+    """Device with a heat port where, with `useTemperatureDependency`, its characteristic follows the temperature.
+
+    Source: Modelica.Electrical.Analog.Interfaces.ConditionalHeatPort with ``useHeatPort = useTemperatureDependency``.
+    """
+
+    useTemperatureDependency: bool = False
+    heatPort: thermal.HeatPort = conditional(thermal.HeatPort(), "useTemperatureDependency")
+
+    @property
+    def T_heatPort(self) -> Expr:
+        """Temperature of the device [K]."""
+        return self.heatPort.T if self.useTemperatureDependency else self.T
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        if self.useTemperatureDependency and not self.useHeatPort:
+            yield self.heatPort.Q_flow == -self.LossPower
+
+
+class PartialBipolar(PartialTemperatureDependent, partial=True):
     """Bipolar transistor after Ebers and Moll, with Early effect, junction and diffusion capacitances.
 
     Source: Modelica.Electrical.Analog.Semiconductors.NPN; Vlach and Singhal, Computer Methods for Circuit Analysis and
@@ -18,7 +39,6 @@ class PartialBipolar(ConditionalHeatPort, partial=True):
     """
 
     polarity: int = 1
-    useTemperatureDependency: bool = False
     useSubstrate: bool = False
     C: Pin = Pin()
     B: Pin = Pin()
@@ -177,13 +197,12 @@ class HeatingPNP(PNP):
     useTemperatureDependency: bool = True
 
 
-class PartialMOS(ConditionalHeatPort, partial=True):
+class PartialMOS(PartialTemperatureDependent, partial=True):
     """MOS transistor with drain, gate, source and bulk, without capacitances.
 
     Source: Modelica.Electrical.Analog.Semiconductors.NMOS; Spiro, Simulation integrierter Schaltungen (1990).
     """
 
-    useTemperatureDependency: bool = False
     D: Pin = Pin()
     G: Pin = Pin()
     S: Pin = Pin()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import acausal as ac
-from acausal import Component, Equations, Input, Parameter, Variable, where
+from acausal import Component, Equations, Input, Parameter, Variable, connect, structural, where
 
 from .. import blocks
 from .interfaces import OnePort, Pin, VoltageSource
@@ -163,11 +163,13 @@ class PulseVoltage(VoltageSource):
     Source: Modelica.Electrical.Analog.Sources.PulseVoltage.
     """
 
+    nperiod: int = -1
     V: Parameter = Parameter(1.0, unit="V", doc="height")
     width: Parameter = Parameter(50.0, min=0.0, max=100.0, doc="width in per cent of the period")
     period: Parameter = Parameter(1.0, unit="s", min=1e-60, doc="time of one period")
     signalSource: blocks.SO = blocks.Pulse(
-        amplitude=V, width=width, period=period, offset=VoltageSource.offset, startTime=VoltageSource.startTime
+        amplitude=V, width=width, period=period, offset=VoltageSource.offset, startTime=VoltageSource.startTime,
+        nperiod=structural("nperiod"),
     )  # fmt: skip
 
 
@@ -183,10 +185,12 @@ class SawToothVoltage(VoltageSource):
     Source: Modelica.Electrical.Analog.Sources.SawToothVoltage.
     """
 
+    nperiod: int = -1
     V: Parameter = Parameter(1.0, unit="V", doc="height")
     period: Parameter = Parameter(1.0, unit="s", min=1e-60, doc="time of one period")
     signalSource: blocks.SO = blocks.SawTooth(
-        amplitude=V, period=period, offset=VoltageSource.offset, startTime=VoltageSource.startTime
+        amplitude=V, period=period, offset=VoltageSource.offset, startTime=VoltageSource.startTime,
+        nperiod=structural("nperiod"),
     )  # fmt: skip
 
 
@@ -202,6 +206,7 @@ class TrapezoidVoltage(VoltageSource):
     Source: Modelica.Electrical.Analog.Sources.TrapezoidVoltage.
     """
 
+    nperiod: int = -1
     V: Parameter = Parameter(1.0, unit="V", doc="height")
     rising: Parameter = Parameter(0.0, unit="s", min=0.0, doc="duration of the rise")
     width: Parameter = Parameter(0.5, unit="s", min=0.0, doc="duration of the plateau")
@@ -209,7 +214,7 @@ class TrapezoidVoltage(VoltageSource):
     period: Parameter = Parameter(1.0, unit="s", min=1e-60, doc="time of one period")
     signalSource: blocks.SO = blocks.Trapezoid(
         amplitude=V, rising=rising, width=width, falling=falling, period=period, offset=VoltageSource.offset,
-        startTime=VoltageSource.startTime, 
+        startTime=VoltageSource.startTime, nperiod=structural("nperiod"),
     )  # fmt: skip
 
 
@@ -259,3 +264,31 @@ class SignalVoltage(Component):
         yield self.v == self.p.v - self.n.v
         yield self.i == self.p.i
         yield self.p.i + self.n.i == 0
+
+
+class SupplyVoltage(Component):
+    """Two constant voltages with a common `ground`: `Vps` at `pin_p`, `Vns` at `pin_n`, as amplifiers need them.
+
+    >>> model = assemble("supply.pin_p - upper.p", "supply.pin_n - lower.p", "supply.ground - upper.n - lower.n - g.p",
+    ...                  supply=SupplyVoltage(Vps=12.0, Vns=-5.0), upper=Resistor(R=4.0), lower=Resistor(R=5.0),
+    ...                  g=Ground())
+    >>> volts = run(model)
+    >>> close(volts["upper.i"], [3.0, 3.0]) and close(volts["lower.i"], [-1.0, -1.0])
+    True
+
+    Source: Modelica.Electrical.Analog.Sources.SupplyVoltage.
+    """
+
+    pin_p: Pin = Pin()
+    pin_n: Pin = Pin()
+    ground: Pin = Pin()
+    Vps: Parameter = Parameter(15.0, unit="V", doc="positive supply voltage")
+    Vns: Parameter = Parameter(-15.0, unit="V", doc="negative supply voltage")
+    positiveSupply: ConstantVoltage = ConstantVoltage(V=Vps)
+    negativeSupply: ConstantVoltage = ConstantVoltage(V=-Vns)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield connect(self.pin_p, self.positiveSupply.p)
+        yield connect(self.positiveSupply.n, self.ground, self.negativeSupply.p)
+        yield connect(self.negativeSupply.n, self.pin_n)

@@ -8,6 +8,7 @@ component in the direction of increasing `phi`. Components with `useSupport` tak
 from .components import Damper as Damper
 from .components import Disc as Disc
 from .components import ElastoBacklash as ElastoBacklash
+from .components import ElastoBacklash2 as ElastoBacklash2
 from .components import Fixed as Fixed
 from .components import Inertia as Inertia
 from .components import RelativeStates as RelativeStates

@@ -169,6 +169,40 @@ class ElastoBacklash(thermal.PartialConditionalHeatPort, PartialCompliantWithRel
         yield self.lossPower == self.tau_d * self.w_rel
 
 
+class ElastoBacklash2(thermal.PartialConditionalHeatPort, PartialCompliantWithRelativeStates):
+    """Spring and damper with a backlash `b`, whose torque may jump when the sides meet.
+
+    No torque within ``|phi_rel - phi_rel0| <= b/2``; beyond it ``tau = c (phi_rel - phi_rel0 -+ b/2) + d w_rel``, as
+    long as that pushes the sides apart. `ElastoBacklash` limits the damping instead.
+
+    >>> model = assemble("wall.flange - play.flange_a", "play.flange_b - rotor.flange_a", wall=Fixed(),
+    ...                  play=ElastoBacklash2(c=np.pi**2 * 2.0, d=0.4, b=0.4),
+    ...                  rotor=Inertia(J=2.0, phi=start(0.0, fixed=True), w=start(1.0, fixed=True)))
+    >>> turned = run(model, at=[0.1, 0.2 + 1e-6, 1.5])
+    >>> close(turned["play.tau"], [0.0, 0.4, 0.0], 1e-3) and close(turned["rotor.phi"][:1], [0.1])
+    True
+
+    Source: Modelica.Mechanics.Rotational.Components.ElastoBacklash2.
+    """
+
+    c: Parameter = Parameter(1e5, unit="N*m/rad", min=0.0, doc="spring constant")
+    d: Parameter = Parameter(0.0, unit="N*m*s/rad", min=0.0, doc="damping constant")
+    b: Parameter = Parameter(0.0, unit="rad", min=0.0, doc="total backlash")
+    phi_rel0: Parameter = Parameter(0.0, unit="rad", doc="unstretched angle")
+    tau_c: Variable = Variable(unit="N*m", doc="torque of the spring")
+    tau_d: Variable = Variable(unit="N*m", doc="torque of the damper, as if the sides met")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        turned, half, both = self.phi_rel - self.phi_rel0, self.b / 2, self.tau_c + self.tau_d
+        above, below, none = turned > half, turned < -half, self.b <= 1e-10
+        pushes = none | (above & (both > 0)) | (below & (both < 0))
+        yield self.tau_c == self.c * where(none, turned, where(above, turned - half, where(below, turned + half, 0.0)))
+        yield self.tau_d == self.d * self.w_rel
+        yield self.tau == where(pushes, both, 0.0)
+        yield self.lossPower == where(pushes, self.tau_d * self.w_rel, 0.0)
+
+
 class RelativeStates(PartialTwoFlanges):
     """The relative angle and velocity of two flanges as states, ``phi_rel = flange_b.phi - flange_a.phi``; no torque.
 
