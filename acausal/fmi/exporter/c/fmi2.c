@@ -7,7 +7,7 @@
 #include "advance.h"
 #include "directional.h"
 
-#define FMI2(NAME) FMU_EXPORT fmi2Status fmi2##NAME
+#define FMI2(NAME) FMU_EXPORT fmi2Status fmi2FullName(fmi2##NAME)
 
 static fmu_instance *instance_of(fmi2Component c) {
     fmu_instance *f = c;
@@ -30,10 +30,10 @@ static void log_to(const fmu_instance *f, int status, const char *category, cons
     callbacks->logger(f->environment, f->name, (fmi2Status)status, category, message);
 }
 
-FMU_EXPORT const char *fmi2GetTypesPlatform(void) { return "default"; }
-FMU_EXPORT const char *fmi2GetVersion(void) { return "2.0"; }
+FMU_EXPORT const char *fmi2FullName(fmi2GetTypesPlatform)(void) { return "default"; }
+FMU_EXPORT const char *fmi2FullName(fmi2GetVersion)(void) { return "2.0"; }
 
-FMU_EXPORT fmi2Component fmi2Instantiate(
+FMU_EXPORT fmi2Component fmi2FullName(fmi2Instantiate)(
     fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources, const fmi2CallbackFunctions *callbacks,
     fmi2Boolean visible, fmi2Boolean logging) {
     (void)resources, (void)visible;
@@ -55,7 +55,7 @@ FMU_EXPORT fmi2Component fmi2Instantiate(
     return f;
 }
 
-FMU_EXPORT void fmi2FreeInstance(fmi2Component c) {
+FMU_EXPORT void fmi2FullName(fmi2FreeInstance)(fmi2Component c) {
     if (instance_of(c)) fmu_free(c);
 }
 

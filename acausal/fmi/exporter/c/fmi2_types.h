@@ -28,4 +28,18 @@ typedef struct {
     fmi2Boolean nextEventTimeDefined;
     fmi2Real nextEventTime;
 } fmi2EventInfo;
+
+/* Names of the functions, as the headers of the standard form them: with FMI2_FUNCTION_PREFIX before them, for units in
+   static libraries (-DFMI2_FUNCTION_PREFIX=Crane_); FMI2_OVERRIDE_FUNCTION_PREFIX takes FMI2_ACTUAL_FUNCTION_PREFIX
+   instead, or none. */
+#if !defined(FMI2_OVERRIDE_FUNCTION_PREFIX) && defined(FMI2_FUNCTION_PREFIX)
+#define FMI2_ACTUAL_FUNCTION_PREFIX FMI2_FUNCTION_PREFIX
+#endif
+#if defined(FMI2_ACTUAL_FUNCTION_PREFIX)
+#define fmi2Paste(A, B) A##B
+#define fmi2PasteB(A, B) fmi2Paste(A, B)
+#define fmi2FullName(NAME) fmi2PasteB(FMI2_ACTUAL_FUNCTION_PREFIX, NAME)
+#else
+#define fmi2FullName(NAME) NAME
+#endif
 #endif

@@ -7,7 +7,7 @@
 #include "advance.h"
 #include "directional.h"
 
-#define FMI3(NAME) FMU_EXPORT fmi3Status fmi3##NAME
+#define FMI3(NAME) FMU_EXPORT fmi3Status fmi3FullName(fmi3##NAME)
 
 static fmu_instance *instance_of(fmi3Instance c) {
     fmu_instance *f = c;
@@ -34,7 +34,7 @@ static void log_to(const fmu_instance *f, int status, const char *category, cons
     ((fmi3LogMessageCallback)f->callback)(f->environment, (fmi3Status)status, category, message);
 }
 
-FMU_EXPORT const char *fmi3GetVersion(void) { return "3.0"; }
+FMU_EXPORT const char *fmi3FullName(fmi3GetVersion)(void) { return "3.0"; }
 
 static fmu_instance *instantiate(
     int kind, fmi3String name, fmi3String token, fmi3Boolean logging, fmi3InstanceEnvironment environment,
@@ -55,14 +55,14 @@ static fmu_instance *instantiate(
     return f;
 }
 
-FMU_EXPORT fmi3Instance fmi3InstantiateModelExchange(
+FMU_EXPORT fmi3Instance fmi3FullName(fmi3InstantiateModelExchange)(
     fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
     fmi3InstanceEnvironment environment, fmi3LogMessageCallback log) {
     (void)resources, (void)visible;
     return instantiate(FMU_MODEL_EXCHANGE, name, token, logging, environment, log);
 }
 
-FMU_EXPORT fmi3Instance fmi3InstantiateCoSimulation(
+FMU_EXPORT fmi3Instance fmi3FullName(fmi3InstantiateCoSimulation)(
     fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
     fmi3Boolean event_mode_used, fmi3Boolean early_return_allowed, const fmi3ValueReference required[], size_t n_required,
     fmi3InstanceEnvironment environment, fmi3LogMessageCallback log, fmi3IntermediateUpdateCallback update) {
@@ -76,7 +76,7 @@ FMU_EXPORT fmi3Instance fmi3InstantiateCoSimulation(
     return f;
 }
 
-FMU_EXPORT fmi3Instance fmi3InstantiateScheduledExecution(
+FMU_EXPORT fmi3Instance fmi3FullName(fmi3InstantiateScheduledExecution)(
     fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
     fmi3InstanceEnvironment environment, fmi3LogMessageCallback log, fmi3ClockUpdateCallback update,
     fmi3LockPreemptionCallback lock, fmi3UnlockPreemptionCallback unlock) {
@@ -85,7 +85,7 @@ FMU_EXPORT fmi3Instance fmi3InstantiateScheduledExecution(
     return NULL;
 }
 
-FMU_EXPORT void fmi3FreeInstance(fmi3Instance c) {
+FMU_EXPORT void fmi3FullName(fmi3FreeInstance)(fmi3Instance c) {
     if (instance_of(c)) fmu_free(c);
 }
 

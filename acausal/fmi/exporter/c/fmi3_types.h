@@ -33,4 +33,18 @@ typedef void (*fmi3IntermediateUpdateCallback)(
     fmi3Boolean step_finished, fmi3Boolean can_return_early, fmi3Boolean *return_early, fmi3Float64 *return_time);
 typedef void (*fmi3LockPreemptionCallback)(void);
 typedef void (*fmi3UnlockPreemptionCallback)(void);
+
+/* Names of the functions, as the headers of the standard form them: with FMI3_FUNCTION_PREFIX before them, for units in
+   static libraries (-DFMI3_FUNCTION_PREFIX=Crane_); FMI3_OVERRIDE_FUNCTION_PREFIX takes FMI3_ACTUAL_FUNCTION_PREFIX
+   instead, or none. */
+#if !defined(FMI3_OVERRIDE_FUNCTION_PREFIX) && defined(FMI3_FUNCTION_PREFIX)
+#define FMI3_ACTUAL_FUNCTION_PREFIX FMI3_FUNCTION_PREFIX
+#endif
+#if defined(FMI3_ACTUAL_FUNCTION_PREFIX)
+#define fmi3Paste(A, B) A##B
+#define fmi3PasteB(A, B) fmi3Paste(A, B)
+#define fmi3FullName(NAME) fmi3PasteB(FMI3_ACTUAL_FUNCTION_PREFIX, NAME)
+#else
+#define fmi3FullName(NAME) NAME
+#endif
 #endif
