@@ -46,7 +46,7 @@ def load(path: str | os.PathLike[str]) -> Fmu:
         path: the file, ``model.fmu``.
 
     Raises:
-        FmuError: no such file, not an FMU, a version of FMI other than 2.0 and 3.0, or no binary for this platform.
+        FmuError: no such file, not an FMU, a version of FMI other than 2.0 and 3.0, or scheduled execution only.
     """
     file = Path(path)
     if not file.is_file():
@@ -58,6 +58,8 @@ def load(path: str | os.PathLike[str]) -> Fmu:
         raise FmuError(f"{file.name} is not a functional mock-up unit: {error}") from error
     if not str(description.fmiVersion).startswith(("2.", "3.")):
         raise FmuError(f"{file.name} is FMI {description.fmiVersion}; versions 2.0 and 3.0 can be loaded")
+    if description.coSimulation is None and description.modelExchange is None:
+        raise FmuError(f"{file.name} offers scheduled execution only; co-simulation and model exchange can be loaded")
     return Fmu(file, description)
 
 
@@ -111,6 +113,19 @@ class Fmu:
             v.name for v in self.description.modelVariables
             if v.causality == causality and v.type in REAL and not v.dimensions
         )  # fmt: skip
+
+    def number(self, name: str) -> Any:
+        """Entry of a variable that is a real number.
+
+        Raises:
+            UnknownNameError: no such variable.
+            FmuError: it is an array, or of another type.
+        """
+        variable = self.variable(name)
+        if variable.dimensions or variable.type not in REAL:
+            what = "an array" if variable.dimensions else f"of type {variable.type}"
+            raise FmuError(f"{self.path.name}: `{name}` is {what}; signals are real numbers")
+        return variable
 
     def variable(self, name: str) -> Any:
         """Entry of the model description.
@@ -171,6 +186,8 @@ class Fmu:
         connectors: Mapping[str, tuple[type[Connector], Mapping[str, str]]] | None = None,
     ) -> Component:
         """As a component of a model: its inputs and outputs are signals, its states are states of the system.
+
+        Discrete inputs, which may change at events only, keep their start value, or what `parameters` gives.
 
         Args:
             parameters: values by name.

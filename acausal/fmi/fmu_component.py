@@ -46,7 +46,9 @@ class _Evaluator:
             raise FmuError(f"{fmu.path.name} could not be initialized: {error}") from error
         self.rates = [int(d.valueReference) for d in entries]
         self.states = [str(d.derivative.name) for d in entries]
-        self.inputs, self.outputs = fmu.names("input"), fmu.names("output")
+        # a discrete input may be set in event mode only
+        self.inputs = tuple(n for n in fmu.names("input") if fmu.variable(n).variability != "discrete")
+        self.outputs = fmu.names("output")
         self.unknowns = [*self.rates, *(fmu.variable(n).valueReference for n in self.outputs)]
         self.state_references = [fmu.variable(n).valueReference for n in self.states]
         self.knowns = [*self.state_references, *(fmu.variable(n).valueReference for n in self.inputs)]

@@ -32,7 +32,7 @@ class FmuParticipant:
         name: shown in messages.
 
     Raises:
-        FmuError: it does not offer co-simulation.
+        FmuError: it does not offer co-simulation, or an output is not a real number.
         UnknownNameError: an output or parameter that it does not have.
     """
 
@@ -70,7 +70,7 @@ class FmuParticipant:
             fmu.variable(v).valueReference for n, tails in self._series.items() for v in (n, *tails)
         ]  # fmt: skip
         self._origin = [fmu.variable(INSTANT).valueReference] if self._series and INSTANT in settable else []
-        self._reads = [fmu.variable(n).valueReference for n in self.outputs]
+        self._reads = [fmu.number(n).valueReference for n in self.outputs]
         self.feedthrough = frozenset(self._direct())
         self._derived: list[tuple[int, int, int]] = []
         self._rates: list[int] = []

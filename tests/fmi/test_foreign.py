@@ -256,3 +256,50 @@ def test_reference_units_with_a_step_of_their_own():
 def test_reference_arrays_are_refused():
     with pytest.raises(FmuError, match=r"StateSpace\.fmu has states in arrays"):
         reference("StateSpace", "3.0").component()
+    with pytest.raises(FmuError, match=r"StateSpace\.fmu: `y` is an array; signals are real numbers"):
+        reference("StateSpace", "3.0").participant(outputs=["y"])
+
+
+@BOTH
+def test_reference_derivatives(version):
+    """A gradient through the unit's directional derivatives equals that of the same equations."""
+    import jax
+
+    class VanDerPol(Component):
+        x0: Variable = Variable(start=2.0, fixed=True)
+        x1: Variable = Variable(start=0.0, fixed=True)
+
+        def equations(self) -> Equations:
+            yield der(self.x0) == self.x1
+            yield der(self.x1) == (1 - self.x0**2) * self.x1 - self.x0
+
+    unit = reference("VanDerPol", version)
+    assert unit.directional
+
+    def end(system, x0):
+        return system.simulate(2.0, saveat=[2.0], rtol=1e-9, initial={"x0": x0}, engine="diffrax")["x0"][-1]
+
+    found, wanted = (jax.grad(lambda x, s=s: end(s, x))(2.1) for s in map(ac.compile, (unit.component(), VanDerPol())))
+    assert abs(wanted) > 1.0
+    np.testing.assert_allclose(found, wanted, rtol=1e-8)
+
+
+@BOTH
+def test_reference_types(version):
+    """Discrete inputs of a component keep what they are given; signals of other types are refused by name."""
+    unit = reference("Feedthrough", version)
+    system = ac.compile(unit.component(parameters={"Float64_discrete_input": 2.5}))
+    solution = system.simulate(1.0, saveat=3, inputs={"Float64_continuous_input": 1.5})
+    assert (solution["Float64_continuous_output"] == 1.5).all() and (solution["Float64_discrete_output"] == 2.5).all()
+    feeds = {"u.Float64_continuous_input": lambda t: t, "u.Float64_discrete_input": 3.0}
+    with CoSimulation({"u": unit}, [], inputs=feeds, step=0.1) as master:
+        result = master.simulate(1.0)
+    np.testing.assert_allclose(result["Float64_continuous_output"], result.t, atol=0.06)
+    assert result["Float64_discrete_output"][-1] == 3.0
+    with pytest.raises(FmuError, match=r"Feedthrough\.fmu: `String_output` is of type String; signals are real"):
+        unit.participant(outputs=["String_output"])
+
+
+def test_reference_scheduled_execution_is_refused():
+    with pytest.raises(FmuError, match=r"Clocks\.fmu offers scheduled execution only"):
+        reference("Clocks", "3.0")
