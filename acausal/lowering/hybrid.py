@@ -104,6 +104,14 @@ class Hybrid:
     closures: dict[str, list[int]] = field(default_factory=dict[str, list[int]])
 
     @property
+    def only_modes(self) -> bool:
+        """Whether nothing can happen at an event but that conditions on what moves switch their modes."""
+        others = (
+            self.floors, self.pres, self.triggers, self.samples, self.reinits, self.asserts, self.ends
+        )  # fmt: skip
+        return self.roots.count > 0 and not any(others) and not any(self.following)
+
+    @property
     def slots(self) -> slice:
         """Where the slots are among the parameters."""
         return slice(self.first, self.first + self.flat.slots.count)

@@ -371,8 +371,17 @@ class EventIteration:
 
     def _note_sizes(self, point: Point) -> None:
         for piece in self.hybrid.relations:
-            places, g = piece.slots - self.hybrid.first, np.nan_to_num(np.abs(piece.values(point)[0]), posinf=0.0)
-            self.largest[places] = np.maximum(self.largest[places], g)
+            places, g = piece.slots - self.hybrid.first, np.abs(piece.values(point)[0])
+            self.largest[places] = np.maximum(self.largest[places], np.where(np.isfinite(g), g, 0.0))
+
+    @property
+    def largest_of_roots(self) -> Floats:
+        """Largest values of the conditions at the events so far (n_roots,), where each root is that of a condition."""
+        return self.largest[self.hybrid.roots.slots - self.hybrid.first]
+
+    def note_largest(self, values: Floats) -> None:
+        """Take over values as `largest_of_roots` gives them."""
+        self.largest[self.hybrid.roots.slots - self.hybrid.first] = values
 
     def _settled(self, t: float, z: Floats, p: Floats) -> Floats:
         found = self.equations.settle(t, z, p)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -48,6 +48,7 @@ class Segment(Protocol):
     step: float
     switched: Any
     counts: dict[str, int]
+    passed: Sequence[tuple[float, int, Any]]
 
 
 Integrate = Callable[[float, float, Floats, Floats, Floats, float, bool, int], Segment]
@@ -97,11 +98,24 @@ class _Record:
     counts: dict[str, int] = field(default_factory=dict[str, int])
     recent: deque[tuple[float, list[int]]] = field(default_factory=lambda: deque(maxlen=MANY_STUCK + 1))
 
-    def segment(self, segment: Segment, p: Floats) -> None:
+    def segment(self, segment: Segment, p: Floats) -> Floats:
+        """Keep a stretch, and note the events that it has passed; the parameters at its end."""
         self.z.append(segment.z[: segment.saved])
-        self.slots.append(np.broadcast_to(p[self.hybrid.slots], (segment.saved, self.hybrid.flat.slots.count)))
         for name, n in segment.counts.items():
             self.counts[name] = self.counts.get(name, 0) + n
+        kept = 0
+        for t, saved, switched in segment.passed:
+            self._hold(p, saved - kept)
+            modes = self.hybrid.roots.slots[switched].tolist()
+            p, kept = p.copy(), saved
+            p[modes] = 1.0 - p[modes]
+            self.event(t, sorted(modes))
+        self._hold(p, segment.saved - kept)
+        return p
+
+    def _hold(self, p: Floats, n: int) -> None:
+        """The same slots in n rows."""
+        self.slots.append(np.broadcast_to(p[self.hybrid.slots], (n, self.hybrid.flat.slots.count)))
 
     def event(self, t: float, slots: list[int]) -> None:
         """Note an event; those that do not let time pass are an error."""
@@ -171,7 +185,7 @@ def run_hybrid(
         sampled = bool(sample_time <= t1)
         stop = float(min(sample_time, t1))
         segment = integrate(t, stop, z, p, save[saved:], step, sampled, max_steps - record.counts.get("steps", 0))
-        record.segment(segment, p)
+        p = record.segment(segment, p)
         saved += segment.saved
         t, z_end, code = segment.t_end, segment.z_end, segment.code
         if code in (0, EVENT):

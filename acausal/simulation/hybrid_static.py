@@ -3,6 +3,7 @@ condition has switched between two of them its time is found by bisection."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -32,6 +33,7 @@ class Stretch:
     step: float = 0.0
     switched: Any = None
     counts: dict[str, int] = field(default_factory=dict[str, int])
+    passed: Sequence[tuple[float, int, Any]] = ()
 
 
 def static_integrate(hybrid: Hybrid, equations: Equations) -> Integrate:

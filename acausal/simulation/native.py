@@ -205,14 +205,20 @@ class NativeModel:
         """Integrate from event to event."""
         iteration, outcome = started.iteration, started.outcome
         assert iteration is not None and outcome is not None
+        by_itself = iteration.hybrid.only_modes and not self.large
 
         def integrate(
             t: float, stop: float, z: Floats, p: Floats, save: Floats, step: float, end_open: bool, steps: int
         ) -> Run:
-            return library.run(
+            largest = iteration.largest_of_roots if by_itself else None
+            run = library.run(
                 t, stop, z, p, save, rtol=how.rtol, atol=how.atol, signals=given.signals, first_step=step,
                 max_steps=steps, method=METHODS.index(how.method), noise=iteration.noise, end_open=end_open,
+                largest=largest,
             )  # fmt: skip
+            if largest is not None:
+                iteration.note_largest(largest)
+            return run
 
         return run_hybrid(
             iteration, outcome, t0, t1, save, integrate, first_step=how.first_step,
@@ -452,7 +458,6 @@ def native_model(system: Any) -> NativeModel:
         def label(v: int) -> str:
             return flat.name(v) if v < flat.n_total else ""
 
-        roots = None if system.hybrid is None else system.hybrid.roots
-        source = to_c(system.program, system.initial, label, roots=roots, loops=loops)
+        source = to_c(system.program, system.initial, label, hybrid=system.hybrid, loops=loops)
         system.cache["native"] = NativeModel(system, source)
     return system.cache["native"]

@@ -30,6 +30,8 @@ STOPPED = RESULTS.index("stopped")
 
 METHODS = ("rodas5p", "rk4", "adams")
 """Methods by number."""
+PASSED = 64
+"""Events that only switch modes up to which a run goes on by itself."""
 
 
 class _Signal(ctypes.Structure):
@@ -47,6 +49,8 @@ class _Problem(ctypes.Structure):
         ("rejected", c_long), ("pivoted", c_long), ("saved", c_long), ("watch", CALLBACK),
         ("watched", c_long), ("located", c_int),
         ("open", c_int), ("step", c_double), ("noise", _P), ("switched", c_void_p),
+        ("most_passed", c_long), ("passed", c_long), ("passed_t", _P), ("passed_saved", _P), ("passed_switched", _P),
+        ("largest", _P),
     )  # fmt: skip
 
 
@@ -62,19 +66,37 @@ class Run:
         step: to go on with from there.
         switched: mask of the roots that have changed their sign at an event.
         counts: steps, accepted, rejected, pivoted.
+        passed: events within the run that only switched modes: time, rows saved before, mask of the roots.
     """
 
-    __slots__ = ("code", "counts", "dz", "dz_end", "saved", "step", "switched", "t_end", "z", "z_end")
+    __slots__ = ("code", "counts", "dz", "dz_end", "passed", "saved", "step", "switched", "t_end", "z", "z_end")
 
     def __init__(
         self, z: Floats, dz: Floats | None, code: int, problem: _Problem, z_end: Floats, dz_end: Floats | None = None,
-        switched: Any = None,
+        switched: Any = None, passed: Sequence[tuple[float, int, Any]] = (),
     ) -> None:  # fmt: skip
         self.z, self.dz, self.code, self.z_end, self.dz_end, self.switched = z, dz, code, z_end, dz_end, switched
+        self.passed = passed
         self.step = float(problem.step)
         self.t_end = float(problem.t_end)
         self.saved = int(problem.saved)
         self.counts = {name: int(getattr(problem, name)) for name in ("steps", "accepted", "rejected", "pivoted")}
+
+
+class _Passed:
+    """Room for the events that a run passes."""
+
+    def __init__(self, problem: _Problem, largest: Floats) -> None:
+        self.t, self.saved = np.empty(PASSED), np.empty(PASSED, c_long)
+        self.switched = np.empty((PASSED, len(largest)), np.int32)
+        problem.most_passed, problem.largest = PASSED, _of(largest)
+        problem.passed_t, problem.passed_saved = _of(self.t), _of(self.saved)
+        problem.passed_switched = _of(self.switched)
+
+    def found(self, problem: _Problem) -> list[tuple[float, int, Any]]:
+        """Time, rows saved before, and mask of the roots of each."""
+        masks = self.switched.astype(bool)
+        return [(float(self.t[k]), int(self.saved[k]), masks[k]) for k in range(problem.passed)]
 
 
 class NativeLibrary:
@@ -182,6 +204,7 @@ class NativeLibrary:
         self, t0: float, t1: float, z0: Floats, p: Floats, save: Floats, *, rtol: float, atol: Floats,
         signals: Sequence[Signal] = (), first_step: float = 0.0, max_steps: int = 1_000_000, method: int = 0,
         tangents: tuple[Floats, Floats] | None = None, noise: Floats | None = None, end_open: bool = False,
+        largest: Floats | None = None,
     ) -> Run:  # fmt: skip
         """Integrate from t0 to t1.
 
@@ -199,6 +222,8 @@ class NativeLibrary:
             tangents: of z0 (n, lanes) and p (n_p, lanes).
             noise: end at the first event; values of its functions (n_roots,) this small are rounding.
             end_open: save nothing at t1.
+            largest: largest values of the functions (n_roots,) at earlier events, kept up in place; events that only
+                switch modes then do not end the run, as many as `PASSED`.
 
         Raises:
             KeyboardInterrupt: the run was ended by Ctrl-C or a request to stop.
@@ -211,10 +236,11 @@ class NativeLibrary:
             smallest=1e-14 * max(abs(t0), abs(t1), abs(t1 - t0)), z0=_of(keep[0]), p=_of(keep[1]), n_save=n_t,
             save=_of(keep[2]), z_out=_of(z), z_end=_of(z_end), t_end=t0, located=noise is not None, open=end_open,
         )  # fmt: skip
-        small = np.zeros(self.n_roots) if noise is None else np.ascontiguousarray(noise, float)
+        small = np.zeros(self.n_roots) if noise is None else np.array(noise, float)
         problem.noise = _of(small)
         switched = np.zeros(max(self.n_roots, 1), np.int32)
         problem.switched = _of(switched)
+        passed = None if largest is None else _Passed(problem, largest)
         held = _signals(signals)
         problem.signals = held[0]
         problem.index = ctypes.addressof(self.index)
@@ -230,7 +256,8 @@ class NativeLibrary:
         code = int(self.library.acausal_run(byref(problem)))
         if code == STOPPED:
             raise KeyboardInterrupt
-        return Run(z, dz, code, problem, z_end, dz_end, switched[: self.n_roots].astype(bool))
+        found = () if passed is None else passed.found(problem)
+        return Run(z, dz, code, problem, z_end, dz_end, switched[: self.n_roots].astype(bool), found)
 
     def settle(self, p: Floats, signals: Sequence[Signal], t: float, z: Floats) -> bool:
         """The algebraic unknowns in z (n,) from its states, in place; False if that fails."""

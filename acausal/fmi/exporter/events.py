@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from ...language.flat_model import Family
 from ...lowering.c.text import array
@@ -54,11 +51,11 @@ def event_tables(system: System) -> list[str]:
     numbers: dict[str, list[int]] = {
         name: [] for name in (
             "floor_slot", "pre_slot", "pre_source", "pre_sign", "condition_slot", "reinit_state", "reinit_sign",
-            "sample_slot", "assert_fatal", "root_first", "root_variable", "root_moves", "root_follows",
+            "sample_slot", "assert_fatal", "root_follows",
         )
     }  # fmt: skip
     texts: dict[str, list[str]] = {"slot_text": [], "assert_text": [], "end_text": []}
-    nominal: list[float] = []
+    scale: list[float] = []
     if hybrid is not None:
         numbers["floor_slot"] = _slots(hybrid.floors)
         numbers["pre_slot"] = _slots(hybrid.pres)
@@ -73,13 +70,12 @@ def event_tables(system: System) -> list[str]:
         ]  # fmt: skip
         texts["end_text"] = [message for p, message in hybrid.ends for _ in range(p.rows.size)]
         texts["slot_text"] = [hybrid.flat.slot_text(hybrid.first + k) for k in range(slots.count)]
-        numbers["root_first"], numbers["root_variable"], nominal = _scales(system, hybrid)
+        scale = _scales(system, hybrid)
         follows = {
             s: int(follows)
             for piece, follows in zip(hybrid.relations, hybrid.following, strict=True) for s in piece.slots.tolist()
         }  # fmt: skip
         numbers["root_follows"] = [follows.get(s, 0) for s in hybrid.roots.slots.tolist()]
-        numbers["root_moves"] = hybrid.moves(np.array(numbers["root_variable"], np.int64)).astype(int).tolist()
     counts = {
         "FLOORS": "floor_slot", "PRES": "pre_slot", "CONDITIONS": "condition_slot", "REINITS": "reinit_state",
         "ASSERTS": "assert_fatal", "SAMPLES": "sample_slot",
@@ -89,7 +85,7 @@ def event_tables(system: System) -> list[str]:
         f"#define FMU_SLOTS {slots.count}", f"#define FMU_INITIAL ({slots.initial})",
         f"#define FMU_TERMINAL ({slots.terminal})", *(f"#define FMU_{name} {n}" for name, n in sizes.items()),
         *(array("int", f"fmu_{name}", values) for name, values in numbers.items()),
-        array("double", "fmu_root_nominal", nominal), array("double", "fmu_root_scale", _largest(numbers, nominal)),
+        array("double", "fmu_root_scale", scale),
         array("int", "fmu_level", levels(low)[states].tolist()),
         array("unsigned char", "fmu_is_mode", [int(kind == "relation") for kind in slots.kinds]),
         *(_texts(f"fmu_{name}", values) for name, values in texts.items()),
@@ -131,21 +127,11 @@ def _reinits(system: System, hybrid: Hybrid) -> tuple[list[int], list[int]]:
     return [position[v] for v in targets], [int(s) for item in hybrid.reinits for s in item.signs]
 
 
-def _scales(system: System, hybrid: Hybrid) -> tuple[list[int], list[int], list[float]]:
-    """Variables in each function of `Roots`: where they begin, their numbers, their nominal values."""
-    first, variables = [0], list[int]()
-    for family in hybrid.roots.families:
-        for row in family.var_rows.tolist():
-            variables += row
-            first.append(len(variables))
-    scale: Any = system.lowered.nominal
-    return first, variables, [float(scale[v]) for v in variables]
-
-
-def _largest(numbers: dict[str, list[int]], nominal: list[float]) -> list[float]:
-    """Largest nominal value in each function, 1 where it has no variables."""
-    first = numbers["root_first"]
-    return [max(nominal[a:b], default=1.0) for a, b in pairwise(first)]
+def _scales(system: System, hybrid: Hybrid) -> list[float]:
+    """Largest nominal value in each function of `Roots`, 1 where it has no variables."""
+    nominal: Any = system.lowered.nominal
+    rows = (row for family in hybrid.roots.families for row in family.var_rows.tolist())
+    return [max((float(nominal[v]) for v in row), default=1.0) for row in rows]
 
 
 def _texts(name: str, values: list[str]) -> str:

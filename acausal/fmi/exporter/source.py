@@ -46,9 +46,8 @@ def equations(system: System) -> str:
     def label(v: int) -> str:
         return flat.name(v) if v < flat.n_total else ""
 
-    roots = None if system.hybrid is None else system.hybrid.roots
     further = {"ac_event_values": event_families(system.hybrid)}
-    return to_c(system.program, system.initial, label, roots=roots, further=further, observe_tangent=True).text
+    return to_c(system.program, system.initial, label, hybrid=system.hybrid, further=further, observe_tangent=True).text
 
 
 def tables(

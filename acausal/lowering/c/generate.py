@@ -13,10 +13,11 @@ from scipy import sparse
 from ...symbolic.expr import ZERO, Expr, par
 from ...symbolic.jacobian import Row
 from ...symbolic.traverse import substitute
-from ..hybrid import Roots
+from ..hybrid import Hybrid
 from .emit import Hoisted, Writer
 from .factor import Factorisation, factor_lines, plan_factors, solve_lines
 from .large import large_file
+from .roots import root_tables
 from .straight import TIME_COLUMN, Straight, family_residuals, reduce_strength, write_out
 from .tableau import tableau_lines
 from .text import NotInC, array, braces
@@ -27,7 +28,8 @@ if TYPE_CHECKING:
     from ..parameters import ParameterProgram
 
 RUNTIME = (
-    "acausal.h", "solver.h", "events.h", "scan.h", "explicit.h", "projection.h", "families.h", "initialize.h", "start.h"
+    "acausal.h", "solver.h", "events.h", "scan.h", "modes.h", "explicit.h", "projection.h", "families.h",
+    "initialize.h", "start.h",
 )  # fmt: skip
 TANGENTS = "AC_TANGENTS"
 DENSE = 4_000_000
@@ -63,7 +65,7 @@ def to_c(
     problem: InitialProblem,
     labels: Callable[[int], str] | None = None,
     *,
-    roots: Roots | None = None,
+    hybrid: Hybrid | None = None,
     further: Mapping[str, Sequence[Family]] | None = None,
     loops: bool = False,
     observe_tangent: bool = False,
@@ -74,7 +76,7 @@ def to_c(
         program: its parameters.
         problem: its initialization, with the lowered equations.
         labels: name of a variable by number, for comments.
-        roots: functions whose change of sign is an event.
+        hybrid: its events.
         further: names of further functions, each with the expressions that it evaluates, for systems that are written
             out.
         loops: write families as loops, for systems that are too large to be written out.
@@ -87,9 +89,9 @@ def to_c(
         low = problem.lowered
         if low.n_g * low.n_x + (low.n_w * low.n_x if low.n_g else 0) > DENSE:
             raise NotInC(f"{low.n_g} retained constraints of {low.n_x} states are left to the diffrax engine")
-        text, tables = large_file(problem.lowered, program.flat.n_par, len(program.flat.inputs), roots)
+        text, tables = large_file(problem.lowered, program.flat.n_par, len(program.flat.inputs), hybrid)
         return CSource(text, runtime_files(), tables)
-    return CSource(_Small(program, problem, labels, roots, further).file(observe_tangent), runtime_files())
+    return CSource(_Small(program, problem, labels, hybrid, further).file(observe_tangent), runtime_files())
 
 
 class _Small:
@@ -97,9 +99,9 @@ class _Small:
 
     def __init__(
         self, program: ParameterProgram, problem: InitialProblem, labels: Callable[[int], str] | None,
-        roots: Roots | None, further: Mapping[str, Sequence[Family]] | None = None,
+        hybrid: Hybrid | None, further: Mapping[str, Sequence[Family]] | None = None,
     ) -> None:  # fmt: skip
-        self.roots = Roots([], np.zeros(0, np.int64), np.zeros(0, bool)) if roots is None else roots
+        self.hybrid = hybrid
         self.program, self.problem = program, problem
         self.lowered = lowered = problem.lowered
         self.n_par = n_par = program.flat.n_par
@@ -120,7 +122,7 @@ class _Small:
         for block in (self.field, self.invariants, self.conditions):
             block.differentiate(rows[: len(block.values)])
             rows = rows[len(block.values) :]
-        self.switching = reduce_strength(family_residuals(s, self.roots.families))
+        self.switching = reduce_strength(family_residuals(s, hybrid.roots.families if hybrid else []))
         self.further = {name: reduce_strength(family_residuals(s, f)) for name, f in (further or {}).items()}
         held = n_par + self.n_inputs
         self.hoisted = Hoisted(lambda leaf: leaf.value < n_par or held <= leaf.value < lowered.n_p)
@@ -291,13 +293,12 @@ class _Small:
             "AC_NC": len(self.hoisted.nodes), "AC_NU": self.n_inputs, "AC_NPAR": self.n_par, "AC_NP": self.lowered.n_p,
             "AC_NG": len(self.invariants.values), "AC_NGZ": len(self.invariants.entries),
             "AC_NI": len(self.conditions.values), "AC_NIZ": len(self.conditions.entries),
-            "AC_NALL": self.lowered.n_ids, "AC_NR": self.roots.count,
+            "AC_NALL": self.lowered.n_ids, "AC_NR": len(self.switching),
         }  # fmt: skip
         head = [f"#define {name} {value}" for name, value in sizes.items()]
         arrays = [*self.field.arrays("ac"), *self.invariants.arrays("ac_g"), *self.conditions.arrays("ac_i")]
         arrays.append(array("double", "ac_nominal", nominal.tolist()))
-        arrays.append(array("int", "ac_root_slot", self.roots.slots.tolist()))
-        arrays.append(array("int", "ac_root_strict", self.roots.strict.astype(int).tolist()))
+        arrays += root_tables(self.hybrid, self.lowered)
         factor = [
             braces(
                 "static int ac_factor(const ac_model *m, double d, const double *J, double *F)",

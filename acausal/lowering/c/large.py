@@ -15,12 +15,13 @@ from .tableau import tableau_lines
 from .text import braces
 
 if TYPE_CHECKING:
-    from ..hybrid import Roots
+    from ..hybrid import Hybrid
     from ..lowered import Lowered
 
 
-def large_file(lowered: Lowered, n_par: int, n_inputs: int, roots: Roots | None = None) -> tuple[str, list[Any]]:
+def large_file(lowered: Lowered, n_par: int, n_inputs: int, hybrid: Hybrid | None = None) -> tuple[str, list[Any]]:
     """C text, and the tables that the compiled code is given."""
+    roots = None if hybrid is None else hybrid.roots
     families = Families(lowered, n_par, n_inputs)
     own, along = functions(families, roots)
     pattern = families.pattern
@@ -37,7 +38,7 @@ def large_file(lowered: Lowered, n_par: int, n_inputs: int, roots: Roots | None 
         "AC_N": n, "AC_NX": lowered.n_x, "AC_NZ": coo.nnz, "AC_NF": plan.size, "AC_NC": 0, "AC_NU": n_inputs,
         "AC_NPAR": n_par, "AC_NP": lowered.n_p, "AC_NG": lowered.n_g, "AC_NGZ": bound.nnz,
         "AC_G_COLORS": int(g_color.max(initial=-1)) + 1, "AC_NI": 0, "AC_NIZ": 0,
-        "AC_NALL": lowered.n_ids, "AC_NR": 0 if roots is None else roots.count, "AC_COLORS": colors,
+        "AC_NALL": lowered.n_ids, "AC_ONLY_MODES": 0, "AC_NR": 0 if roots is None else roots.count, "AC_COLORS": colors,
         "AC_LU_SIZE": len(plan.indices),
     }  # fmt: skip
     places = {

@@ -132,9 +132,9 @@ static void fmu_release(fmu_instance *f) {
 /* Largest value of the variables in a condition, or nominal value; those that move between events, or all. */
 static double fmu_root_size(const fmu_instance *f, int root, int moving_only) {
     double size = 0.0;
-    for (int e = fmu_root_first[root]; e < fmu_root_first[root + 1]; e++)
-        if (!moving_only || fmu_root_moves[e])
-            size = ac_max(size, ac_max(fabs(f->all[fmu_root_variable[e]]), fmu_root_nominal[e]));
+    for (int e = ac_root_first[root]; e < ac_root_first[root + 1]; e++)
+        if (!moving_only || ac_root_moves[e])
+            size = ac_max(size, ac_max(fabs(f->all[ac_root_variable[e]]), ac_root_nominal[e]));
     return size;
 }
 
@@ -151,7 +151,7 @@ static int fmu_by_rounding(fmu_instance *f) {
     for (int k = 0; k < AC_NR; k++) {
         const int slot = ac_root_slot[k];
         if (slot < 0 || !f->slot_changed[slot - FMU_FIRST_SLOT]) continue;
-        const double scale = fmu_root_first[k] == fmu_root_first[k + 1] ? 1.0 : fmu_root_size(f, k, 0);
+        const double scale = ac_root_first[k] == ac_root_first[k + 1] ? 1.0 : fmu_root_size(f, k, 0);
         if (!(fabs(f->roots[k]) <= FMU_NOISE * scale)) return 0;
     }
     return 1;

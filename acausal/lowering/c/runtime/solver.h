@@ -33,8 +33,13 @@ typedef struct {
     int located;                   /* events end the run */
     int open;                      /* nothing is saved at t1 */
     double step;                   /* to go on with after t_end */
-    const double *noise;           /* (AC_NR) values this small of a condition are rounding */
+    double *noise;                 /* (AC_NR) values this small of a condition are rounding */
     int *switched;                 /* (AC_NR) conditions that have switched at t_end */
+    long most_passed, passed;      /* events that only switch modes may be passed in the run; how many were */
+    double *passed_t;              /* (most_passed) their times, */
+    long *passed_saved;            /* (most_passed) what was saved before each, */
+    int *passed_switched;          /* (most_passed, AC_NR) and the conditions that switched */
+    double *largest;               /* (AC_NR) largest values of the conditions at events */
 } ac_problem;
 
 /* Whether the run is to end. */
@@ -64,10 +69,10 @@ typedef struct { /* of the normal equations of projection.h */
 typedef struct {
     ac_model m;
     double c[AC_NC + 1], u[AC_NU + 1], du[AC_NU + 1];
-    double z[AC_N], z1[AC_N], f[AC_N], ft[AC_N], J[AC_NZ + 1], F[AC_NF + 1], k[8][AC_N], v[3][AC_N], y[AC_N];
+    double p[AC_NP + 1], z[AC_N], z1[AC_N], f[AC_N], ft[AC_N], J[AC_NZ + 1], F[AC_NF + 1], k[8][AC_N], v[3][AC_N], y[AC_N];
     int pivoted;                   /* the factors are dense, with pivots */
 #ifdef AC_FAMILIES
-    double p[AC_NP + 1], all[AC_NALL], all_a[AC_NALL], rates[AC_NP + 1], f_all[AC_N];
+    double all[AC_NALL], all_a[AC_NALL], rates[AC_NP + 1], f_all[AC_N];
     ac_vector d_all[AC_NALL], d_inputs[AC_NP + 1], seed[AC_N], swept[AC_N];
 #endif
 #ifndef AC_SPARSE_ONLY
@@ -78,6 +83,9 @@ typedef struct {
     double g0[AC_NR], g1[AC_NR], g2[AC_NR], g3[AC_NR], slack[AC_NR], rate[AC_NR], scan[5][AC_NR];
     const double *noise;
     char candidate[AC_NR];
+#endif
+#if AC_ONLY_MODES
+    double all[AC_NALL];
 #endif
 #if AC_NG > 0
     ac_projection projection;
@@ -217,6 +225,9 @@ AC_DENSE_OUTPUT(ac_interpolate, double)
 #include "projection.h"
 #endif
 #include "events.h"
+#if AC_ONLY_MODES
+#include "modes.h"
+#endif
 #ifdef AC_TANGENTS
 AC_DENSE_OUTPUT(ac_interpolate_vector, ac_vector)
 AC_BACK(ac_back_vector, ac_vector, ac_solve_vector, ac_dense_solve_vector)
@@ -367,7 +378,7 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
             rejected_before = 1;
             continue;
         }
-        if (q->accepted > 0 && error <= 1.0) { /* predictive control: Gustafsson (1994) */
+        if (h_before > 0.0 && error <= 1.0) { /* predictive control: Gustafsson (1994) */
             const double predicted = 0.9 * (h / h_before) * pow(error_before / (size * size), 0.2) * h;
             next = ac_min(next, ac_clip(predicted, 0.2 * h, 8.0 * h));
         }
@@ -423,6 +434,11 @@ static int ac_explicit(ac_problem *q, ac_work *w) {
     return result;
 }
 
+/* To the end of the run or the first event. */
+static int ac_stretch(ac_problem *q, ac_work *w, void *tangents) {
+    return q->method == AC_RODAS5P ? ac_integrate(q, w, tangents) : ac_explicit(q, w);
+}
+
 AC_EXPORT long acausal_size(int which) {
     const long sizes[] = {AC_N, AC_NX, AC_NP, AC_NI, AC_NIZ, AC_NALL, AC_LANES, sizeof(ac_problem), AC_NR};
     return sizes[which];
@@ -437,10 +453,12 @@ AC_EXPORT int acausal_run(ac_problem *q) {
     void *tangents = NULL;
     if (!w) return AC_NO_MEMORY;
     memset(&w->m, 0, sizeof w->m);
-    w->m.p = q->p, w->m.c = w->c, w->m.dp = (const ac_vector *)q->dp, w->m.signals = q->signals;
+    w->m.p = w->p, w->m.c = w->c, w->m.dp = (const ac_vector *)q->dp, w->m.signals = q->signals;
     w->m.u = w->u, w->m.du = w->du, w->m.index = q->index, w->m.nominal = q->nominal;
 #ifdef AC_FAMILIES
     ac_room(&w->m, w, q->p);
+#else
+    memcpy(w->p, q->p, sizeof(double) * AC_NP);
 #endif
     memcpy(w->z, q->z0, sizeof w->z);
     q->t_end = q->t0;
@@ -455,7 +473,11 @@ AC_EXPORT int acausal_run(ac_problem *q) {
         memcpy(d->dz, q->dz0, sizeof d->dz);
     }
 #endif
-    const int result = q->method == AC_RODAS5P ? ac_integrate(q, w, tangents) : ac_explicit(q, w);
+    int result = ac_stretch(q, w, tangents);
+#if AC_ONLY_MODES
+    for (; result == AC_EVENT && ac_switch_modes(q, w); result = ac_stretch(q, w, tangents))
+        q->t0 = q->t_end, q->first_step = q->step;
+#endif
     memcpy(q->z_end, w->z, sizeof w->z);
 #ifdef AC_TANGENTS
     if (tangents) memcpy(q->dz_end, ((ac_tangent_work *)tangents)->dz, sizeof(ac_vector) * AC_N);
