@@ -402,7 +402,10 @@ class NativeModel:
                     at = p.copy()
                     at[self.system.hybrid.slots] = slots[a]
                     values[a:b] = self.library().observe(at, signals, t[a:b], z[a:b])
-        return np.where(low.sign == 0, 0.0, low.sign * np.nan_to_num(values[:, low.representative], nan=np.nan))
+        found = values[:, low.representative]
+        found[:, low.sign < 0] *= -1.0
+        found[:, low.sign == 0] = 0.0
+        return found
 
 
 @dataclass(frozen=True, slots=True)
