@@ -93,6 +93,12 @@ class JaxInner:
 
         return jax.jit(observe, compiler_options=compiler_options(True))
 
+    def remember(self) -> Any:
+        """What there is to save besides the states."""
+
+    def recall(self, memory: Any) -> None:
+        """Go back to what was remembered."""
+
     def evaluate(self, t: float, z: Any, p: Any, matrix: Floats) -> Floats:
         """Outputs and their derivatives, (3, n_y)."""
         return np.asarray(self._observe(np.float64(t), z, p, matrix))

@@ -67,6 +67,12 @@ class NativeInner:
         steps = max(run.counts["accepted"], 1)
         return run.z_end, 0.5 * h / steps, run.counts["steps"], run.code == 0 and bool(np.isfinite(run.z_end).all())
 
+    def remember(self) -> Any:
+        """What there is to save besides the states."""
+
+    def recall(self, memory: Any) -> None:
+        """Go back to what was remembered."""
+
     def evaluate(self, t: float, z: Any, p: Any, matrix: Floats) -> Floats:
         """Outputs and their derivatives, (3, n_y)."""
         p = p.copy()

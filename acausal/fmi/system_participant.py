@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -17,6 +17,7 @@ from ..lowering.initial import solve_initial
 from ..lowering.initial_numeric import solve_numeric
 from ..simulation.engines import why_not_native
 from ..system import System
+from .feedthrough import depends_at_once
 from .participant import DEGREE, CoSimulationError, Floats
 
 
@@ -54,7 +55,7 @@ class SystemParticipant:
 
     Raises:
         UnknownNameError: an output that the model does not have.
-        CoSimulationError: a model with events.
+        CoSimulationError: a model with `when` and a solver that runs in JAX.
     """
 
     can_reject = True
@@ -73,13 +74,10 @@ class SystemParticipant:
         polynomials: Sequence[PolynomialInput] = (),
         name: str | None = None,
     ) -> None:
-        self.system = system
-        self.name = name or system.name
-        if system.hybrid is not None:
-            raise CoSimulationError(
-                f"participant `{self.name}` has events, which a system in this process does not handle: export it with "
-                "`acausal.fmi.export` and take the unit, which handles its own"
-            )
+        self.given, self.name = system, name or system.name
+        self.method = "rodas5p" if solver is None else solver
+        native = isinstance(self.method, str) and why_not_native(system, {"solver": self.method}) is None
+        self.system = system.located if native else system
         self.parameters, self.initial = dict(parameters or {}), dict(initial or {})
         self.polynomials = {p.name: p for p in polynomials}
         self.inputs = (*system.input_names, *self.polynomials)
@@ -94,7 +92,23 @@ class SystemParticipant:
         self._p: Any = None
         self._state: tuple[Any, float] = (None, 0.0)
         self._ran: set[str] = set()
+        self._check_events()
         self._counts: dict[str, float] = {"macro_steps": 0, "steps": 0, "seconds": 0.0, "compile_seconds": 0.0}
+
+    def _check_events(self) -> None:
+        if self.system.hybrid is not None and not self._native:
+            raise CoSimulationError(
+                f"participant `{self.name}` has `when` statements or discrete variables, which need generated C in "
+                "this process: take solver='rodas5p' and a machine with a C compiler, or export it with "
+                "`acausal.fmi.export` and take the unit"
+            )
+
+    @property
+    def _native(self) -> bool:
+        """Whether generated C does it; a diffrax solver and derivatives that the model does not compute need JAX."""
+        if not isinstance(self.method, str) or why_not_native(self.system, {"solver": self.method}) is not None:
+            return False
+        return all(d >= 0 for n in self.outputs for d in self._derivatives(n)[: self._orders[n]])
 
     # ---- names ----------------------------------------------------------------------------------------------------
     def require(self, output: str, order: int) -> bool:
@@ -104,6 +118,11 @@ class SystemParticipant:
                 f"participant `{self.name}` has no output `{output}`.{nearest(output, self.outputs)}"
             )
         self._orders[output] = max(self._orders[output], min(order, 2))
+        if self.system.hybrid is not None and not self._native:
+            self.system = self.given  # conditions in equations need no events
+            for cached in ("_places", "_feedthrough"):
+                self.__dict__.pop(cached, None)
+            self._check_events()
         return True
 
     @property
@@ -113,18 +132,11 @@ class SystemParticipant:
 
     @cached_property
     def _feedthrough(self) -> frozenset[str]:
-        low = self.system.lowered
-        places = self._places
-        found: list[str] = []
-        tears = set(low.schedule.tears.tolist())
-        for name in self.outputs:
-            ids = np.unique(low.representative[np.ravel(self.system.index_of(name))])
-            groups = low.closure(ids, residuals=False)
-            reached = {int(v) for k in groups for v in low.schedule.groups[k].var_rows.ravel()} | set(ids.tolist())
-            if reached & tears:
-                groups = low.closure(ids, residuals=True)
-            if any(np.isin(low.schedule.groups[k].par_rows, places).any() for k in groups):
-                found.append(name)
+        low, none = self.system.lowered, np.zeros(0, np.int64)
+        found = [
+            n for n in self.outputs
+            if depends_at_once(low, low.representative[np.ravel(self.system.index_of(n))], none, self._places)
+        ]  # fmt: skip
         return frozenset(found)
 
     def nominal(self, name: str) -> float:
@@ -161,22 +173,23 @@ class SystemParticipant:
     def _inner(self) -> Any:
         """What steps and evaluates: generated C where the machine has a compiler, else JAX."""
         ids = [int(np.ravel(self.system.index_of(n))[0]) for n in self.outputs]
-        method = "rodas5p" if self.solver is None else self.solver
-        derivatives = [self._derivatives(n) for n in self.outputs]
-        known = all(all(d >= 0 for d in ds[: self._orders[n]]) for n, ds in zip(self.outputs, derivatives, strict=True))
-        if isinstance(method, str) and why_not_native(self.system, {"solver": method}) is None and known:
+        if self._native:
+            from .inner_events import EventInner
             from .inner_native import NativeInner
 
-            if method == "rk4" and self.dt is None:
+            if self.method == "rk4" and self.dt is None:
                 raise SimulationError("'rk4' takes fixed steps inside a participant: give the step, `dt=1e-4`.")
-            return NativeInner(
-                self.system, self._places, method=method, dt=self.dt, rtol=self.rtol, atol=self.atol, outputs=ids,
-                derivatives=derivatives, n_inputs=len(self.system.input_names),
-            )  # fmt: skip
+            options = {
+                "method": self.method, "dt": self.dt, "rtol": self.rtol, "atol": self.atol, "outputs": ids,
+                "derivatives": [self._derivatives(n) for n in self.outputs], "n_inputs": len(self.system.input_names),
+            }  # fmt: skip
+            if self.system.hybrid is not None:
+                return EventInner(self.system, self._places, name=self.name, **options)
+            return NativeInner(self.system, self._places, **options)
         from .inner_jax import JaxInner
 
         return JaxInner(
-            self.system, self._places, solver=_jax_solver(method), dt=self.dt, rtol=self.rtol, atol=self.atol,
+            self.system, self._places, solver=_jax_solver(self.method), dt=self.dt, rtol=self.rtol, atol=self.atol,
             outputs=ids, orders=[self._orders[n] for n in self.outputs],
         )  # fmt: skip
 
@@ -217,28 +230,46 @@ class SystemParticipant:
         p = system.program.evaluate(self.parameters, np)
         matrix = self._matrix(t0, coefficients)
         p[self._places] = matrix[:, 0]
-        starts = system.program.starts(p, np)
-        found = solve_numeric(system.initial, float(t0), p, starts, system._overrides(self.initial, np))
-        if found is None:
-            import jax.numpy as jnp
-
-            overrides = system._overrides(self.initial, jnp)
-            found = solve_initial(system.initial, t0, jnp.asarray(p), jnp.asarray(starts), overrides)
-        x0, w0, left = (np.asarray(a, float) for a in found)
-        system.check_initial(x0, w0, p, left, t0)
+        starts, overrides = system.program.starts(p, np), system._overrides(self.initial, np)
+        if system.hybrid is not None:
+            z0, p, left = self._inner.start(t0, p, starts, self._solve_start(t0, starts, overrides), matrix)
+        else:
+            z0, left = self._solve_start(t0, starts, overrides)(p)
+        system.check_initial(z0[: system.lowered.n_x], z0[system.lowered.n_x :], p, left, t0)
         self._p = np.asarray(p, float)
-        self._state = (np.concatenate([x0, w0]), 0.0)
+        self._state = (z0, 0.0)
+
+    def _solve_start(self, t0: float, starts: Floats, overrides: Mapping[int, Any]) -> Callable[[Floats], Any]:
+        """Consistent states and unknowns for given parameters, and the residuals left."""
+        system = self.system
+
+        def solve(p: Floats) -> tuple[Floats, Floats]:
+            found = solve_numeric(system.initial, float(t0), p, starts, overrides)
+            if found is None:
+                import jax.numpy as jnp
+
+                given = system._overrides(self.initial, jnp)
+                found = solve_initial(system.initial, t0, jnp.asarray(p), jnp.asarray(starts), given)
+            x0, w0, left = (np.asarray(a, float) for a in found)
+            return np.concatenate([x0, w0]), left
+
+        return solve
 
     def step(self, t: float, h: float, coefficients: Floats) -> None:
         """Advance from t to t + h.
 
         Raises:
-            CoSimulationError: the inner solver failed.
+            CoSimulationError: the inner solver failed, an event has no outcome, or the model ends the simulation.
         """
         z, hint = self._state
         begin = time.perf_counter()
         key = self._timed("step")
-        z, hint, steps, ok = self._inner.step(t, h, z, self._p, self._matrix(t, coefficients), hint)
+        try:
+            z, hint, steps, ok = self._inner.step(t, h, z, self._p, self._matrix(t, coefficients), hint)
+        except CoSimulationError:
+            raise
+        except SimulationError as error:
+            raise CoSimulationError(f"participant `{self.name}`: {error}") from error
         self._counts[key] += time.perf_counter() - begin
         self._counts["macro_steps"] += 1
         self._counts["steps"] += steps
@@ -267,12 +298,13 @@ class SystemParticipant:
         return "compile_seconds" if first else "seconds"
 
     def save(self) -> Any:
-        """The present state."""
-        return self._state
+        """The present state, with modes and discrete variables."""
+        return self._state, self._inner.remember()
 
     def restore(self, state: Any) -> None:
         """Go back to a saved state."""
-        self._state = state
+        self._state, memory = state
+        self._inner.recall(memory)
 
     def close(self) -> None:
         """Nothing is held."""

@@ -21,6 +21,8 @@ CLOSE, SHRINKING, MANY_SHRINKING = 1e-7, 0.999, 20
 """So many events in a row, each sooner than the last, up to this part of the run: they accumulate."""
 STUCK, MANY_STUCK = 1e-10, 60
 """So many events in a row without time passing, to this part of the run: they chatter."""
+SAMPLE_SLACK = 0.5e-9
+"""A sample this part of its interval behind the end of a run is taken there: a run that goes on counts it as passed."""
 EVENT = RESULTS.index("event_occurred")
 
 
@@ -154,7 +156,7 @@ class _Record:
 
 def run_hybrid(
     iteration: EventIteration, start: Outcome, t0: float, t1: float, save: Floats, integrate: Integrate,
-    *, first_step: float, max_steps: int, at_event: AtEvent | None = None,
+    *, first_step: float, max_steps: int, at_event: AtEvent | None = None, at_end: bool = True,
 ) -> HybridRun:  # fmt: skip
     """Integrate from event to event.
 
@@ -167,6 +169,7 @@ def run_hybrid(
         first_step: first step [s]; 0 to estimate one.
         max_steps: most steps.
         at_event: told of each event, and of the end.
+        at_end: whether the end of the run is the end of the simulation, for `terminal()`.
 
     Raises:
         SimulationError: events chatter or accumulate, an assertion fails, an event has no consistent outcome.
@@ -180,9 +183,10 @@ def run_hybrid(
     if start.changed:
         record.event(t0, start.changed)
     ended, z_end = start.ended, start.z
+    slack = SAMPLE_SLACK * min((interval for _, interval, _ in iteration.due), default=0.0)
     while ended is None:
         sample_time, due = iteration.next_sample(t)
-        sampled = bool(sample_time <= t1)
+        sampled = bool(sample_time <= t1 + slack)
         stop = float(min(sample_time, t1))
         segment = integrate(t, stop, z, p, save[saved:], step, sampled, max_steps - record.counts.get("steps", 0))
         p = record.segment(segment, p)
@@ -204,7 +208,7 @@ def run_hybrid(
         z, p, ended, step, code = outcome.z, outcome.p, outcome.ended, segment.step, 0
         z_end = z
     closed = False
-    if slots.terminal >= 0 and ended is None and code == 0:
+    if at_end and slots.terminal >= 0 and ended is None and code == 0:
         outcome = iteration.event(t, z_end, p, None, [slots.terminal])
         if at_event is not None:
             at_event(t, None, outcome, [slots.terminal])

@@ -242,12 +242,6 @@ def test_events_inside_a_macro_step(version):
     assert result["bounces"][-1] >= 2
 
 
-def test_systems_with_events_are_refused():
-    """Their modes would stay as they are at the start."""
-    with pytest.raises(CoSimulationError, match=r"participant `ball` has events, .*export it with `acausal\.fmi\."):
-        CoSimulation({"ball": system(Ball)}, [])
-
-
 @BOTH
 def test_steps_of_a_unit_are_taken_back(version):
     """Adaptive and implicit masters save and restore the unit's state, as those of systems in this process."""
