@@ -21,7 +21,7 @@ import acausal as ac
 import acausal.fmi
 from models.kbc import reference_crane
 
-from .export_models import Ball, Balanced, Chain, Implicit, Oscillator, Rectifier, Sampled, Thermostat
+from .export_models import Balanced, Ball, Chain, Implicit, Oscillator, Rectifier, Sampled, Thermostat
 
 SCRIPT = """
 import json, sys
