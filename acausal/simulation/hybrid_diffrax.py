@@ -131,8 +131,8 @@ def simulate_events(
             return Stretch(np.tile(z, (n, 1)), 0, n, max(t, stop), z, step, None, {})
         times = np.full(len(save), stop)
         times[: len(remaining)] = np.clip(remaining, t, stop)
-        slack, shortest = jnp.asarray(_slack(iteration, equations, t, z, p)), jnp.asarray(NARROWEST * (stop - t))
-        switch = Switch(slack, shortest, lowered, hybrid.roots, together, low.n_x)
+        slack, shortest = _slack(iteration, equations, t, z, p), jnp.asarray(NARROWEST * (stop - t))
+        switch = Switch(jnp.asarray(slack), shortest, lowered, hybrid.roots, together, low.n_x)
         finder = optx.Bisection(rtol=TIME, atol=TIME, flip=True)  # what switches by rounding is at an end of the step
         event = diffrax.Event(switch, finder) if hybrid.roots.count else None
         settings = plain.settings_of(
@@ -158,7 +158,7 @@ def simulate_events(
         if sum(named.values()) and steps < named["steps"]:
             name = "max_steps_reached"
         result = EVENT if happened else RESULTS.index(name) if name in RESULTS else 1
-        roots = _switched(hybrid, equations, t_end, z_end, p) if happened else None
+        roots = _switched(hybrid, equations, t_end, z_end, p, slack) if happened else None
         return Stretch(found, result, n, t_end, z_end, 0.0, roots, named)
 
     stretch = integrate if low.n_x else static_integrate(hybrid, equations)
@@ -185,10 +185,15 @@ def _slack(iteration: EventIteration, equations: NumericEquations, t: float, z: 
     return np.where(side <= iteration.noise, 10.0 * np.abs(side) + iteration.noise + TINY, 0.0)
 
 
-def _switched(hybrid: Hybrid, equations: NumericEquations, t: float, z: Floats, p: Floats) -> Any:
-    """The conditions that switch at a root: the nearest to its switch, and what is already behind."""
+def _switched(hybrid: Hybrid, equations: NumericEquations, t: float, z: Floats, p: Floats, slack: Floats) -> Any:
+    """The conditions that switch at a root: the nearest to its switch, and what is already behind.
+
+    What has rested at its switch since the start of the stretch (it has `slack`) is no nearer to it than it was: it
+    switches where it has left its slack behind.
+    """
     settled = equations.settle(t, z, p)
-    side = -sides(hybrid, equations, t, z if settled is None else settled, p)
-    return side <= np.maximum(side.min(), 0.0) + SLACK
-
-
+    distance = slack - sides(hybrid, equations, t, z if settled is None else settled, p)
+    behind, moving = distance <= 0.0, slack == 0.0
+    if not behind.any() and moving.any():
+        return moving & (distance <= distance[moving].min() + SLACK)
+    return behind | (moving & (distance <= SLACK)) if behind.any() else distance <= distance.min() + SLACK

@@ -383,3 +383,25 @@ class Degenerate(Component):
 def test_equations_that_a_mode_makes_singular_are_an_error(engine: Any) -> None:
     with pytest.raises(ac.SimulationError, match=r"At t = 1 s the equations are singular .*\s.*determines `a`, `b`"):
         ac.compile(Degenerate()).simulate(2.0, saveat=5, engine=engine)
+
+
+class Latched(Component):
+    """`y` is on from the start, if what it was before is given; the event at t = 0.5 s turns it off."""
+
+    y: Discrete = Discrete(start=0.0)
+    x: Variable = Variable(start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1
+        yield self.y == where((pre(self.y) > 0.5) & (self.x < 0.5) | (self.x > 2.0), 1.0, 0.0)
+
+
+def test_a_fixed_start_of_a_discrete_is_what_it_was_before(engine: Any) -> None:
+    """Modelica Language Specification 8.6: ``pre(y) = y.start``, which is no condition on `y` itself."""
+    for fixed in (True, False):
+        for before, then in ((1.0, 1.0), (0.0, 0.0)):
+            system = ac.compile(Latched(y=ac.start(before, fixed=fixed)))
+            solution = system.simulate(1.0, saveat=[0.0, 0.4, 0.9], engine=engine)
+            assert_allclose(solution["y"], [then, then, 0.0])
+    never = ac.compile(Latched(x=ac.start(1.0, fixed=True), y=ac.start(1.0, fixed=True))).simulate(0.5, engine=engine)
+    assert_allclose(never["y"], 0.0)

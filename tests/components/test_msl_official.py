@@ -1,0 +1,101 @@
+"""More examples of the Modelica Standard Library against its official trajectories, in the tube of 2e-3.
+
+Each file has about a hundred points of the signals that the library's own regression tests compare, away from events.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.components import blocks, electrical, rotational, thermal
+from acausal.components.examples import assemble, start
+
+from . import msl_circuits, msl_drives, msl_mechanisms
+from .msl_hybrid import coupled_clutches
+from .test_msl import read
+
+MODELS: dict[str, Callable[[], ac.Component]] = {
+    "CoupledClutches": coupled_clutches, "Friction": msl_drives.friction,
+    "SimpleGearShift": msl_drives.simple_gear_shift, "LossyGearDemo3": msl_drives.lossy_gear_demo3,
+    "OneWayClutch": msl_drives.one_way_clutch, "ElasticBearing": msl_drives.elastic_bearing,
+    "Backlash": msl_drives.backlash, "Brake": msl_drives.brake, "PreLoad": msl_drives.pre_load,
+    "ControlledTemperature": msl_drives.controlled_temperature, "Rectifier": msl_circuits.rectifier,
+    "HeatingRectifier": msl_circuits.heating_rectifier, "HeatingMOSInverter": msl_circuits.heating_mos_inverter,
+    "SwitchWithArc": msl_circuits.switch_with_arc, "ThyristorBehaviourTest": msl_circuits.thyristor_behaviour_test,
+    "AmplifierWithOpAmpDetailed": msl_circuits.amplifier_with_op_amp_detailed,
+    "LCOscillator": msl_circuits.lc_oscillator, "IdealTriacCircuit": msl_circuits.ideal_triac_circuit,
+    "DoublePendulum": msl_mechanisms.double_pendulum, "ThreeSprings": msl_mechanisms.three_springs,
+    "SpringMassSystem": msl_mechanisms.spring_mass_system, "FreeBody": msl_mechanisms.free_body,
+    "Engine1a": msl_mechanisms.engine1a, "Engine1b": msl_mechanisms.engine1b,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", MODELS)
+def test_within_the_tube(name: str, engine: Any) -> None:
+    header, values = read(name)
+    t = values[:, 0]
+    solution = ac.compile(MODELS[name]()).simulate(t1=float(t[-1]), saveat=t, rtol=1e-8, engine=engine)
+    for column, signal in enumerate(header[1:], start=1):
+        reference = values[:, column]
+        error = np.max(np.abs(np.asarray(solution[signal]) - reference))
+        assert error <= 2e-3 * np.ptp(reference), f"{signal}: {error}"
+
+
+def test_ideal_lossy_gear_is_free() -> None:
+    """Without losses nothing holds the gear, not even at rest: it is an `IdealGear`."""
+    found = []
+    for gear in (rotational.LossyGear(ratio=2.0), rotational.IdealGear(ratio=2.0)):
+        model = assemble(
+            "drive.y - torque.tau", "torque.flange - one.flange_a", "one.flange_b - gear.flange_a",
+            "gear.flange_b - two.flange_a", drive=blocks.Sine(amplitude=3.0, f=1.0), torque=rotational.Torque(),
+            gear=gear, one=rotational.Inertia(J=1.0, phi=start(0.0, fixed=True), w=start(0.0, fixed=True)),
+            two=rotational.Inertia(J=2.0),
+        )  # fmt: skip
+        found.append(ac.compile(model).simulate(2.0, saveat=21, rtol=1e-9))
+    assert np.all(np.asarray(found[0]["gear.mode"]) == 2.0)
+    wanted = 3.0 / 1.5 / (2 * np.pi) * (1 - np.cos(2 * np.pi * np.linspace(0.0, 2.0, 21)))
+    for solution in found:
+        np.testing.assert_allclose(solution["one.w"], wanted, atol=1e-7)
+
+
+@pytest.mark.parametrize(("where", "begins"), [("Linear", 0.0), ("UpperLimit", 15.0), ("LowerLimit", -15.0)])
+def test_start_of_an_amplifier(where: str, begins: float) -> None:
+    model = assemble(
+        "source.p - amp.in_p", "amp.in_n - amp.out - load.p", "source.n - load.n - ground.p",
+        source=electrical.ConstantVoltage(V=0.0), load=electrical.Resistor(R=1e3), ground=electrical.Ground(),
+        amp=electrical.OpAmpLimited(useFirstOrder=True, Tau=1.0, initOpAmp=where),
+    )  # fmt: skip
+    solution = ac.compile(model).simulate(0.01, saveat=[0.0, 0.01])
+    np.testing.assert_allclose(solution["load.v"], [begins, 0.0], atol=1e-5)
+
+
+def test_unknown_start_of_an_amplifier() -> None:
+    with pytest.raises(ac.DeclarationError, match=r"initOpAmp='Top'.*Linear, UpperLimit, LowerLimit"):
+        ac.compile(electrical.OpAmpLimited(initOpAmp="Top"))
+
+
+def test_pulses_that_end() -> None:
+    model = assemble(
+        "source.p - load.p", "source.n - load.n - ground.p", load=electrical.Resistor(R=2.0),
+        source=electrical.PulseVoltage(V=4.0, period=0.2, nperiod=2), ground=electrical.Ground(),
+    )  # fmt: skip
+    solution = ac.compile(model).simulate(1.0, saveat=[0.05, 0.15, 0.25, 0.45, 1.0])
+    np.testing.assert_allclose(solution["load.i"], [2.0, 0.0, 2.0, 0.0, 0.0])
+
+
+def test_heat_port_of_a_transistor_that_depends_on_temperature() -> None:
+    """`useTemperatureDependency` alone gives the port; the heat through it is the power lost."""
+    model = assemble(
+        "drive.p - mos.G", "supply.p - mos.D", "drive.n - supply.n - mos.S - mos.B - ground.p",
+        "mos.heatPort - hot.port", drive=electrical.ConstantVoltage(V=3.0), supply=electrical.ConstantVoltage(V=5.0),
+        mos=electrical.NMOS(useTemperatureDependency=True), ground=electrical.Ground(),
+        hot=thermal.FixedTemperature(T=350.0),
+    )  # fmt: skip
+    solution = ac.compile(model).simulate(1.0, saveat=[1.0])
+    np.testing.assert_allclose(solution["hot.port.Q_flow"], solution["mos.D.i"] * 5.0, rtol=1e-8)
