@@ -24,6 +24,8 @@ from .discrete import Sampler as Sampler
 from .discrete import TriggeredSampler as TriggeredSampler
 from .discrete import UnitDelay as UnitDelay
 from .discrete import ZeroOrderHold as ZeroOrderHold
+from .filters import CriticalDamping as CriticalDamping
+from .filters import Filter as Filter
 from .functions import Abs as Abs
 from .functions import Acos as Acos
 from .functions import Asin as Asin
