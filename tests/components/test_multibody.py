@@ -12,6 +12,8 @@ from scipy.special import ellipk
 import acausal as ac
 from acausal import Array, Component, Equations, Solution, System, connect, inner, start
 from acausal.components import multibody as mb
+from acausal.components import thermal
+from acausal.components.examples import assemble
 
 G = 9.81
 DOWN_Z = mb.World(g=G, n=(0.0, 0.0, -1.0))
@@ -355,3 +357,28 @@ class Loose(Component):
 
     world: mb.World = inner(mb.World())
     hinge: mb.Revolute = mb.Revolute()
+
+
+@pytest.mark.parametrize("strut", [
+    mb.Damper(d=3.0, useHeatPort=True),
+    mb.SpringDamperParallel(c=20.0, s_unstretched=1.0, d=3.0, useHeatPort=True),
+    mb.SpringDamperSeries(c=20.0, s_unstretched=1.0, d=3.0, useHeatPort=True, s_damper=start(0.1, fixed=True)),
+], ids=lambda s: type(s).__name__)  # fmt: skip
+def test_a_strut_heats_what_it_damps(strut: Component) -> None:
+    """Energy of a swinging mass, of its spring and of the heat is what it was."""
+    model = assemble(
+        "world.frame_b - strut.frame_a", "strut.frame_b - bob.frame_a", "strut.heatPort - tank.port", strut=strut,
+        world=inner(mb.World(g=9.81)), tank=thermal.HeatCapacitor(C=2.0, T=start(300.0, fixed=True)),
+        bob=mb.PointMass(
+            m=2.0, r_0=start((0.5, -1.0, 0.2), fixed=True), v_0=start((1.0, -0.5, 0.0), fixed=True)
+        ),
+    )  # fmt: skip
+    solution = ac.compile(model).simulate(0.5, saveat=11, rtol=1e-10)
+    speed = sum(np.asarray(solution[f"bob.v_0[{k}]"]) ** 2 for k in (1, 2, 3))
+    energy = speed + 2.0 * 9.81 * np.asarray(solution["bob.frame_a.r_0[2]"])
+    if not isinstance(strut, mb.Damper):
+        given = np.asarray(solution["strut.s_damper"]) if isinstance(strut, mb.SpringDamperSeries) else 0.0
+        energy = energy + 10.0 * (np.asarray(solution["strut.s"]) - 1.0 - given) ** 2
+    heat = 2.0 * (np.asarray(solution["tank.T"]) - 300.0)
+    assert heat[-1] > 0.1
+    np.testing.assert_allclose(energy + heat, energy[0], rtol=1e-7)

@@ -20,7 +20,7 @@ from acausal import (
     potential_root,
 )
 
-from .. import translational
+from .. import thermal, translational
 from .frames import IDENTITY, ZEROS, resolve2, resolve_relative
 from .free_joints import implied_mass
 from .parts import PartialTwoFrames
@@ -152,8 +152,8 @@ class Spring(PartialMassiveLineForce):
         yield self.f == self.c * (self.s - self.s_unstretched)
 
 
-class Damper(PartialLineForce):
-    """Damper between two frames, ``f = d ds/dt``.
+class Damper(thermal.PartialConditionalHeatPort, PartialLineForce):
+    """Damper between two frames, ``f = d ds/dt``; with `useHeatPort` its loss goes to `heatPort`.
 
     >>> bob = PointMass(m=2.0, r_0=start((0.0, -2.0, 0.0), fixed=True), v_0=start((0.0, -1.0, 0.0), fixed=True))
     >>> model = assemble("world.frame_b - damper.frame_a", "damper.frame_b - bob.frame_a", bob=bob,
@@ -169,9 +169,10 @@ class Damper(PartialLineForce):
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.f == self.d * der(self.s)
+        yield self.lossPower == self.f * der(self.s)
 
 
-class SpringDamperParallel(PartialLineForce):
+class SpringDamperParallel(thermal.PartialConditionalHeatPort, PartialLineForce):
     """Spring and damper side by side, ``f = c (s - s_unstretched) + d ds/dt``.
 
     >>> bob = PointMass(m=2.0, r_0=start((0.0, -2.0, 0.0), fixed=True), v_0=start((0.0, -1.0, 0.0), fixed=True))
@@ -192,9 +193,10 @@ class SpringDamperParallel(PartialLineForce):
         yield from super().equations()
         yield self.f_d == self.d * der(self.s)
         yield self.f == self.c * (self.s - self.s_unstretched) + self.f_d
+        yield self.lossPower == self.f_d * der(self.s)
 
 
-class SpringDamperSeries(PartialLineForce):
+class SpringDamperSeries(thermal.PartialConditionalHeatPort, PartialLineForce):
     """Spring and damper one after the other, ``f = c (s - s_unstretched - s_damper) = d ds_damper/dt``.
 
     >>> bob = PointMass(m=2.0, r_0=start((0.0, -2.0, 0.0), fixed=True))
@@ -216,3 +218,4 @@ class SpringDamperSeries(PartialLineForce):
         yield from super().equations()
         yield self.f == self.c * (self.s - self.s_unstretched - self.s_damper)
         yield self.d * der(self.s_damper) == self.f
+        yield self.lossPower == self.f * der(self.s_damper)
