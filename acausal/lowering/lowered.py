@@ -14,6 +14,7 @@ import numpy as np
 
 from ..language.flat_model import Family
 from ..language.template import Floats, Ints
+from ..passes.first_integrals import FirstIntegrals, first_integrals
 from ..passes.schedule import Group, Kernel, Schedule, needs
 from ..symbolic.expr import Expr, par, var
 from ..symbolic.traverse import evaluate, substitute
@@ -119,6 +120,11 @@ class Lowered:
         groups = self.closure(np.zeros(0, np.int64), residuals=True)
         env, _ = self._run(groups, t, x, w_guess, p, solve=True)
         return self._vector(env, self.schedule.tears)
+
+    @cached_property
+    def conserved(self) -> FirstIntegrals:
+        """Sums of states that stay what they are."""
+        return first_integrals(self.schedule)
 
     def sparsity(self) -> Any:
         """Boolean CSR pattern of d(dx, r)/d(x, w), (n_x + n_w, n_x + n_w)."""

@@ -49,8 +49,9 @@ def explain(
         if found:
             lines += [f"{found} just beyond this point.", *_equation(system, *beyond)]
         lines.append(
-            "Often: a square root or a division that leaves its domain, a solution that grows without bound, or a "
-            "discontinuity that should be an event."
+            "Often: a square root or a division that leaves its domain, a solution that grows without bound, a "
+            "discontinuity that should be an event, or a variable that matters while it is far below its absolute "
+            "tolerance (give it its `nominal`, or a smaller `atol`)."
         )
     if result == "max_steps_reached":
         lines.append("Raise `max_steps`, loosen `rtol`, or look for chattering in this variable.")

@@ -7,6 +7,8 @@ from typing import Any, Protocol
 import numpy as np
 from jax import Array
 
+from acausal.passes.first_integrals import FirstIntegrals
+
 
 class Lowered(Protocol):
     """A semi-explicit index-1 system `x' = dx(t, x, w, p)`, `0 = r(t, x, w, p)` with invariants `0 = g(t, x, w, p)`.
@@ -19,6 +21,11 @@ class Lowered(Protocol):
     n_g: int
     x_nominal: np.ndarray
     w_nominal: np.ndarray
+
+    @property
+    def conserved(self) -> FirstIntegrals:
+        """Linear first integrals."""
+        ...
 
     def derivatives(self, t: Any, x: Array, w: Array, p: Array) -> tuple[Array, Array]:
         """`(dx, r)` of shapes (n_x,) and (n_w,)."""

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import diffrax
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 from diffrax import AbstractSolver, AbstractWrappedSolver
@@ -84,6 +85,33 @@ def _matrix_free_step(lowered: Lowered, t: Any, x: Array, w: Array, p: Array) ->
     multiplier, _ = jax.scipy.sparse.linalg.cg(lambda v: push(pull(v)[0]), c, tol=1e-12, maxiter=200)
     z = (s - pull(multiplier)[0]) * scale
     return z[:n_x], z[n_x:]
+
+
+class Conserving(eqx.Module):
+    """The candidate of a step with its linear first integrals as at the start; then what else it is projected on.
+
+    Each state moves in proportion to its size, so that none changes by more than rounding of its own.
+    Source: Hairer, Lubich and Wanner (2006), Geometric Numerical Integration, IV.4, Eq. (4.5), in this norm.
+
+    Args:
+        matrix: coefficients of the sums, (n_k, n_x).
+        sums: their values at the start, (n_k,).
+        after: a further projection, or None.
+    """
+
+    matrix: Array
+    sums: Array
+    after: Callable[[Any, Array, Any], Array] | None = eqx.field(static=True)
+
+    def __call__(self, t: Any, z: Array, args: Any) -> Array:
+        n_k, n_x = self.matrix.shape
+        weight = jnp.abs(jax.lax.stop_gradient(z[:n_x]))
+        square = (self.matrix**2) @ weight
+        scaled = self.matrix / jnp.sqrt(jnp.where(square > 0, square, jnp.inf))[:, None]
+        left = (self.sums - self.matrix @ z[:n_x]) / jnp.sqrt(jnp.where(square > 0, square, jnp.inf))
+        normal = (scaled * weight) @ scaled.T + 1e-14 * jnp.eye(n_k)
+        z = z.at[:n_x].add(weight * (scaled.T @ jnp.linalg.solve(normal, left)))
+        return z if self.after is None else self.after(t, z, args)
 
 
 class Wrapped(AbstractWrappedSolver[Any]):

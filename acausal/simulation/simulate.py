@@ -23,7 +23,7 @@ from .inputs import drive
 from .jit import compiled_for, ensure_x64, inside_jit, is_traced
 from .linear_solvers import AbstractLinearSolver, DenseLU
 from .lowered import Lowered, dimensions
-from .projection import Projected, WithAlgebraic, project
+from .projection import Conserving, Projected, WithAlgebraic, project
 from .rk4 import RK4
 from .rodas5p import Rodas5P
 from .solution import Solution
@@ -339,6 +339,10 @@ def _index_one(lowered: Lowered, solver: Rodas5P, x0: Array, w0: Array, p: Array
             return jnp.concatenate(project(lowered, t, z[:n_x], z[n_x:], p))
 
         solver = eqx.tree_at(lambda s: s.project, solver, onto, is_leaf=lambda v: v is None)
+    if lowered.conserved.count:
+        matrix = jnp.asarray(lowered.conserved.matrix(n_x))
+        conserving = Conserving(matrix, matrix @ x0, solver.project)
+        solver = eqx.tree_at(lambda s: s.project, solver, conserving, is_leaf=lambda v: v is None or callable(v))
     return solver, field, jnp.concatenate([x0, w0]), p
 
 

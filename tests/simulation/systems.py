@@ -13,6 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from acausal.errors import UnknownNameError, nearest
+from acausal.passes.first_integrals import FirstIntegrals
 
 
 class HandLowered:
@@ -21,6 +22,7 @@ class HandLowered:
     x_nominal = np.ones(2)
     w_nominal = np.ones(0)
     n_g = 0
+    conserved = FirstIntegrals(0, np.zeros(0, int), np.zeros(0, int), np.zeros(0))
 
     @property
     def n_x(self) -> int:

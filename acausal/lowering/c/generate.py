@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..parameters import ParameterProgram
 
 RUNTIME = (
-    "acausal.h", "solver.h", "events.h", "scan.h", "modes.h", "explicit.h", "projection.h", "families.h",
+    "acausal.h", "solver.h", "events.h", "scan.h", "modes.h", "explicit.h", "projection.h", "conserved.h", "families.h",
     "initialize.h", "start.h",
 )  # fmt: skip
 TANGENTS = "AC_TANGENTS"
@@ -283,6 +283,7 @@ class _Small:
         """The whole file."""
         plan = self.plan()
         nominal = np.concatenate([self.lowered.x_nominal, self.lowered.w_nominal])
+        kept = self.lowered.conserved
         functions, tangents = self.functions(), self.tangent_functions()
         functions += [self.observe(), *self.switches()]
         if observe_tangent:
@@ -293,12 +294,14 @@ class _Small:
             "AC_NC": len(self.hoisted.nodes), "AC_NU": self.n_inputs, "AC_NPAR": self.n_par, "AC_NP": self.lowered.n_p,
             "AC_NG": len(self.invariants.values), "AC_NGZ": len(self.invariants.entries),
             "AC_NI": len(self.conditions.values), "AC_NIZ": len(self.conditions.entries),
-            "AC_NALL": self.lowered.n_ids, "AC_NR": len(self.switching),
+            "AC_NALL": self.lowered.n_ids, "AC_NR": len(self.switching), "AC_NK": kept.count, "AC_NKZ": len(kept.value),
         }  # fmt: skip
         head = [f"#define {name} {value}" for name, value in sizes.items()]
         arrays = [*self.field.arrays("ac"), *self.invariants.arrays("ac_g"), *self.conditions.arrays("ac_i")]
         arrays.append(array("double", "ac_nominal", nominal.tolist()))
         arrays += root_tables(self.hybrid, self.lowered)
+        arrays += [array("int", "ac_k_row", kept.row.tolist()), array("int", "ac_k_column", kept.column.tolist())]
+        arrays.append(array("double", "ac_k_value", kept.value.tolist()))
         factor = [
             braces(
                 "static int ac_factor(const ac_model *m, double d, const double *J, double *F)",

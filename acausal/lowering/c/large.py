@@ -12,7 +12,7 @@ from ..sparsity import condition_pattern
 from .factor import plan_factors
 from .families import Families, factor_tables, functions
 from .tableau import tableau_lines
-from .text import braces
+from .text import array, braces
 
 if TYPE_CHECKING:
     from ..hybrid import Hybrid
@@ -37,7 +37,7 @@ def large_file(lowered: Lowered, n_par: int, n_inputs: int, hybrid: Hybrid | Non
     sizes = {
         "AC_N": n, "AC_NX": lowered.n_x, "AC_NZ": coo.nnz, "AC_NF": plan.size, "AC_NC": 0, "AC_NU": n_inputs,
         "AC_NPAR": n_par, "AC_NP": lowered.n_p, "AC_NG": lowered.n_g, "AC_NGZ": bound.nnz,
-        "AC_G_COLORS": int(g_color.max(initial=-1)) + 1, "AC_NI": 0, "AC_NIZ": 0,
+        "AC_G_COLORS": int(g_color.max(initial=-1)) + 1, "AC_NI": 0, "AC_NIZ": 0, "AC_NK": 0, "AC_NKZ": 0,
         "AC_NALL": lowered.n_ids, "AC_ONLY_MODES": 0, "AC_NR": 0 if roots is None else roots.count, "AC_COLORS": colors,
         "AC_LU_SIZE": len(plan.indices),
     }  # fmt: skip
@@ -63,8 +63,9 @@ def large_file(lowered: Lowered, n_par: int, n_inputs: int, hybrid: Hybrid | Non
         "static void ac_constants_tangent(const double *p, const ac_vector *dp, ac_vector *dc)",
         ["(void)p; (void)dp; (void)dc;"],
     )
+    none = [array("int", "ac_k_row", []), array("int", "ac_k_column", []), array("double", "ac_k_value", [])]
     parts = [
-        *head, '#include "acausal.h"', *tableau_lines(), constants, *own, "#ifdef AC_TANGENTS", constants_along, *along,
-        "#endif", '#include "families.h"', '#include "solver.h"',
+        *head, '#include "acausal.h"', *none, *tableau_lines(), constants, *own, "#ifdef AC_TANGENTS", constants_along,
+        *along, "#endif", '#include "families.h"', '#include "solver.h"',
     ]  # fmt: skip
     return "\n".join(parts) + "\n", tables.arrays

@@ -1,7 +1,7 @@
 /* Rodas5P for M z' = f(t, z): states first, then algebraic unknowns (rows of M that are zero).
 
    The generated file has defined, before it includes this one:
-     AC_N, AC_NX, AC_NZ (nonzeros of J), AC_NF (numbers of the factors), AC_NC, AC_NU, AC_NG,
+     AC_N, AC_NX, AC_NZ (nonzeros of J), AC_NF (numbers of the factors), AC_NC, AC_NU, AC_NG, AC_NK, AC_NKZ,
      ac_constants, ac_field, ac_field_jacobian, ac_factor, ac_solve, ac_nominal, ac_row, ac_column,
      and for tangents ac_constants_tangent, ac_field_tangent, ac_jacobian_tangent, ac_solve_vector.
 
@@ -224,6 +224,7 @@ AC_DENSE_OUTPUT(ac_interpolate, double)
 #if AC_NG > 0
 #include "projection.h"
 #endif
+#include "conserved.h"
 #include "events.h"
 #if AC_ONLY_MODES
 #include "modes.h"
@@ -326,13 +327,14 @@ static double ac_until(const ac_problem *q, double t1, int event, int last) {
 
 static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
     const double direction = q->t1 >= q->t0 ? 1.0 : -1.0;
-    double t = q->t0, error_before = 1e-4, h_before = 0.0;
+    double t = q->t0, error_before = 1e-4, h_before = 0.0, sums[AC_NK + 1];
     int forced = 0, rejected_before = 0, fresh = 1;
     ac_inputs(w, t);
     ac_field_jacobian(&w->m, t, w->z, w->f, w->ft, w->J);
     double h = q->first_step > 0.0 ? q->first_step : ac_first_step(q, w, direction);
     memcpy(w->z1, w->z, sizeof w->z);
     memset(w->v, 0, sizeof w->v);
+    ac_sums(w->z, sums);
 #ifdef AC_TANGENTS
     ac_tangent_work *d = tangents;
     if (d) memcpy(d->dz1, d->dz, sizeof d->dz), memset(d->dv, 0, sizeof d->dv);
@@ -397,6 +399,7 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
         if (d) ac_step_tangent(w, d, t, step);
 #endif
         const double t1 = last && !event ? q->t1 : t + step;
+        ac_keep(sums, w->z1);
 #if AC_NG > 0
         ac_project(w, tangents, t1);
 #endif

@@ -5,6 +5,7 @@ typedef struct {
     double h;                        /* step to be tried next; 0 to estimate one */
     double h_before, error_before;   /* of the last accepted step, for predictive control */
     int rejected_before;
+    double sums[AC_NK + 1];          /* linear first integrals */
     long steps, accepted, rejected;
 } ac_control;
 
@@ -21,6 +22,7 @@ static AC_UNUSED int ac_advance(ac_problem *q, ac_work *w, ac_control *k) {
         ac_field_jacobian(&w->m, t, w->z, w->f, w->ft, w->J);
         fresh = 1;
         memset(k, 0, sizeof *k);
+        ac_sums(w->z, k->sums);
         k->h = ac_first_step(q, w, 1.0);
     }
     for (long n = 0; q->t1 > t; n++) {
@@ -71,6 +73,7 @@ static AC_UNUSED int ac_advance(ac_problem *q, ac_work *w, ac_control *k) {
         if (event < 0) return AC_SINGULAR;
 #endif
         t = last && !event ? q->t1 : t + h;
+        ac_keep(k->sums, w->z1);
 #if AC_NG > 0
         ac_project(w, NULL, t);
 #endif
