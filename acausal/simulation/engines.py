@@ -115,9 +115,6 @@ def _why_not(system: Any) -> str | None:
 
 
 def _find_out(system: Any) -> str | None:
-    low = system.lowered
-    if not low.n_x:
-        return "the model has no states"
     try:
         compiler()
         native_model(system)
@@ -191,8 +188,9 @@ def tolerances(system: Any, rtol: Any, atol: Any, dt: Any, max_steps: int) -> To
     low = system.lowered
     safety = INVARIANT_SAFETY if low.n_g else 1.0
     rtol = float(rtol)
-    relative = np.broadcast_to(np.asarray(ATOL * rtol if atol is None else atol, float), (low.n_x,))
-    scale = np.concatenate([relative * low.x_nominal, relative.min() * low.w_nominal])
+    given = np.asarray(ATOL * rtol if atol is None else atol, float)
+    relative = np.broadcast_to(given, (low.n_x,))
+    scale = np.concatenate([relative * low.x_nominal, given.min() * low.w_nominal])
     return Tolerances(safety * rtol, safety * scale, 0.0 if dt is None else float(dt), max_steps)
 
 

@@ -59,7 +59,7 @@ def simulate_traced(
     safety = INVARIANT_SAFETY if low.n_g else 1.0
     wanted = ATOL * jnp.asarray(rtol, float) if atol is None else jnp.asarray(atol, float)
     relative = jnp.broadcast_to(wanted, (low.n_x,))
-    scale = jnp.concatenate([relative * low.x_nominal, jnp.min(relative) * jnp.asarray(low.w_nominal)])
+    scale = jnp.concatenate([relative * low.x_nominal, jnp.min(wanted) * jnp.asarray(low.w_nominal)])
     tables = tuple(np.shape(t)[0] > 1 for t, _ in signals)
     spec = _Spec(ById(model), tuple(parameters), tuple(initial), tables, max_steps, throw)
     values = (

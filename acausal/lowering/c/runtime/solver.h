@@ -308,6 +308,29 @@ static double ac_first_step(const ac_problem *q, ac_work *w, double direction) {
     return found > 0.0 ? found : 1e-6 * span;
 }
 
+#if AC_NX == 0 && AC_N > 0
+/* Without states nothing has to be integrated: what is saved solves the equations of its time, from the interpolated
+   values, which stay where Newton's method does not converge. */
+static void ac_save_solved(const ac_problem *q, long n, ac_work *w, void *tangents) {
+    double z[AC_N], v[3][AC_N];
+    memcpy(z, q->z_out + n * AC_N, sizeof z);
+    memcpy(v, w->v, sizeof v);
+    const int failed = ac_slope(w, q->save[n], z, w->f);
+    memcpy(w->v, v, sizeof v);
+    if (failed) return;
+    memcpy(q->z_out + n * AC_N, z, sizeof z);
+#ifdef AC_TANGENTS
+    if (!tangents) return;
+    ac_vector *dz = (ac_vector *)q->dz_out + n * AC_N, move[AC_N];
+    ac_field_tangent(&w->m, q->save[n], z, dz, move);
+    ac_back_vector(w, move);
+    for (int i = 0; i < AC_N; i++) dz[i] += move[i];
+#else
+    (void)tangents;
+#endif
+}
+#endif
+
 static void ac_save(const ac_problem *q, long n, double s, ac_work *w, void *tangents) {
     ac_interpolate(s, w->z, w->z1, w->v, q->z_out + n * AC_N);
 #ifdef AC_TANGENTS
@@ -315,6 +338,9 @@ static void ac_save(const ac_problem *q, long n, double s, ac_work *w, void *tan
     if (d) ac_interpolate_vector(s, d->dz, d->dz1, d->dv, (ac_vector *)q->dz_out + n * AC_N);
 #else
     (void)tangents;
+#endif
+#if AC_NX == 0 && AC_N > 0
+    ac_save_solved(q, n, w, tangents);
 #endif
 }
 
