@@ -19,6 +19,7 @@ from scipy.linalg import qr
 from ..errors import StructureError
 from ..language.flat_model import Family, FlatModel, canonical
 from ..language.template import Floats, Ints
+from ..symbolic.collect import collected
 from ..symbolic.differentiate import partial
 from ..symbolic.expr import ONE, ZERO, Expr, add, const, div, mul, neg, par, var
 from ..symbolic.gradient import Sampler
@@ -292,7 +293,7 @@ class _Group:
         size = sum(np.abs(self.value(term)) for term in terms)
         for anything in (ZERO, ONE):
             try:
-                residual = substitute(add(*terms), {var(z): anything for z in gone})
+                residual = collected(substitute(add(*terms), {var(z): anything for z in gone}))
             except ZeroDivisionError:
                 continue
             value = self.value(residual)

@@ -12,10 +12,11 @@ from scipy.integrate import simpson
 
 import acausal as ac
 from acausal import Component
-from acausal.components import electrical, thermal, translational
+from acausal.components import blocks, electrical, hydraulic, thermal, translational
 from acausal.components.examples import assemble, start
 
-T = np.linspace(0.0, 2.0, 4001)
+T = np.concatenate([[0.0], np.geomspace(1e-7, 4e-4, 1000), np.linspace(5e-4, 2.0, 8000)])
+"""Dense at the start, where volumes fill in microseconds."""
 Books = Callable[[ac.Solution], tuple[Any, Any, Any]]
 """From a solution to the power that goes in, the energy that is stored, and the power that is lost."""
 
@@ -119,7 +120,86 @@ def bodies(rng: np.random.Generator) -> tuple[Component, Books]:
     return model, books
 
 
-KINDS = {"circuit": circuit, "chain": chain, "bodies": bodies}
+def network(rng: np.random.Generator) -> tuple[Component, Books]:
+    """A pump with a relief valve, orifices, valves and pipes between volumes and bare junctions, a cylinder with a load.
+
+    Node 0 is the tank, the last one the pump's.
+    """
+    nodes, parts, at = int(rng.integers(3, 7)), {}, {}
+    for k in range(1, nodes):
+        if rng.random() < 0.6 or k == nodes - 1:
+            p = start(float(rng.uniform(1e5, 5e6)), fixed=True)
+            parts[f"volume{k}"] = hydraulic.ControlVolume(V=float(10 ** rng.uniform(-4, -2.5)), p=p)
+            at.setdefault(k, []).append(f"volume{k}.port")
+    for k, (a, b) in enumerate(tree(rng, nodes, int(rng.integers(1, 4)))):
+        kind = str(rng.choice(["orifice", "gap", "check", "relief", "pipe", "valve"]))
+        if kind == "pipe" and not {f"volume{a}", f"volume{b}"}.isdisjoint(parts):
+            kind = "orifice"  # a pipe has volumes of its own, whose pressures two starts would fix
+        area = float(10 ** rng.uniform(-6, -4.5))
+        parts[f"{kind}{k}"] = {
+            "orifice": lambda a: hydraulic.Orifice(area=a), "gap": lambda a: hydraulic.LaminarRestriction(G=1e-6 * a),
+            "check": lambda a: hydraulic.CheckValve(A_full=a), "valve": lambda a: hydraulic.TwoWayValve(A_full=a),
+            "relief": lambda a: hydraulic.ReliefValve(p_set=2e6, A_full=a), "pipe": lambda _: hydraulic.Pipe(d=0.02),
+        }[kind](area)  # fmt: skip
+        for node, end in ((a, "port_a"), (b, "port_b")):
+            at.setdefault(node, []).append(f"{kind}{k}.{end}")
+    parts |= {"tank": hydraulic.Tank(p=1e5), "pump": hydraulic.FixedPump(V_disp=1e-5, omega=10.0)}
+    parts["relief"] = hydraulic.ReliefValve(p_set=float(rng.uniform(3e6, 2e7)))
+    at[0] += ["tank.port", "pump.port_a", "relief.port_b"]
+    at[nodes - 1] += ["pump.port_b", "relief.port_a"]
+    lines = []
+    if rng.random() < 0.5:
+        moving = {"x": start(0.5, fixed=True), "v": start(0.0, fixed=True)}
+        parts["cylinder"] = hydraulic.SimplifiedCylinder(bore=0.05, rod=0.03, **moving)
+        parts["load"], parts["spring"] = translational.PointMass(m=200.0), translational.SpringDamper(c=1e5, d=2e3)
+        parts["wall"] = translational.Fixed()
+        at[int(rng.integers(1, nodes))].append("cylinder.port_a")
+        at[0].append("cylinder.port_b")
+        lines += ["cylinder.flange - load.flange - spring.flange_b", "spring.flange_a - wall.flange"]
+    for name in [n for n in parts if n.startswith("valve")]:
+        parts[f"u_{name}"] = blocks.Sine(amplitude=0.5, offset=0.5, f=float(rng.uniform(0.5, 3)))
+        lines.append(f"u_{name}.y - {name}.u")
+    oil = hydraulic.Oil()
+    joined = [" - ".join(ends) for ends in at.values() if len(ends) > 1]
+    model = assemble(*joined, *lines, oil=ac.inner(oil), **parts)
+
+    def books(s: ac.Solution) -> tuple[Any, Any, Any]:
+        def power(name: str) -> Any:
+            return sum(np.asarray(s[f"{name}.{port}.p"]) * np.asarray(s[f"{name}.{port}.q"]) for port in ports(name))
+
+        def ports(name: str) -> list[str]:
+            return ["port"] if name.startswith(("tank", "volume")) else ["port_a", "port_b"]
+
+        rho, B = 850.0, 1.2e9
+        mechanical = ("load", "spring", "wall", "u_")
+        oily = [n for n in parts if not n.startswith(mechanical)]
+        put_in, stored, lost = -power("pump") - power("tank"), np.zeros(len(T)), np.zeros(len(T))
+        total = -put_in
+        for name in oily:
+            if name in ("pump", "tank"):
+                continue
+            total = total + power(name)
+            if name.startswith("volume"):
+                stored = stored + s.system.parameters[f"{name}.V"] / (2 * B) * np.asarray(s[f"{name}.p"]) ** 2
+            elif name.startswith("pipe"):
+                area, q = np.pi / 4 * 0.02**2, np.asarray(s[f"{name}.q"])
+                ends = np.asarray(s[f"{name}.p_a"]) ** 2 + np.asarray(s[f"{name}.p_b"]) ** 2
+                stored = stored + area * 10.0 / (4 * B) * ends + rho * 10.0 / (2 * area) * q**2
+                lost = lost + np.asarray(s[f"{name}.friction.dp"]) * q
+            elif name == "cylinder":
+                stretch = np.asarray(s["spring.s_rel"]) - s.system.parameters["spring.s_rel0"]
+                stored = stored + 0.5 * 200.0 * np.asarray(s["cylinder.v"]) ** 2 + 0.5 * 1e5 * stretch**2
+                lost = lost + np.asarray(s["spring.lossPower"])
+            else:
+                lost = lost + power(name)
+                assert (power(name) >= -1e-9 * np.abs(put_in).max()).all(), name
+        assert_allclose(total, 0.0, atol=1e-5 * max(1.0, np.abs(lost).max()))
+        return put_in, stored, lost
+
+    return model, books
+
+
+KINDS = {"network": network, "circuit": circuit, "chain": chain, "bodies": bodies}
 
 
 def kept(kind: str, seed: int, engine: Any = "native") -> bool:
@@ -136,13 +216,19 @@ def kept(kind: str, seed: int, engine: Any = "native") -> bool:
     change = stored - stored[0]
     wanted = simpson(np.asarray(put_in) - lost, x=T)
     size = max(simpson(np.abs(put_in) + np.abs(lost), x=T), np.abs(change).max(), 1e-3)
-    assert abs(change[-1] - wanted) < 2e-4 * size, f"{kind}, seed {seed}: {change[-1]} and not {wanted}"
+    assert abs(change[-1] - wanted) < 5e-4 * size, f"{kind}, seed {seed}: {change[-1]} and not {wanted}"
     return True
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_networks_keep_the_books(kind: str) -> None:
     assert sum(kept(kind, seed) for seed in range(8)) >= 6
+
+
+@pytest.mark.parametrize("seed", [50, 72])
+def test_steps_that_end_just_behind_a_kink(seed: int) -> None:
+    """Check valves in a row: where one closes, the pressure between them is found anew, which no small step does."""
+    assert kept("network", seed)
 
 
 @pytest.mark.slow

@@ -114,6 +114,12 @@ def test_the_exact_solution_or_an_error() -> None:
     assert count >= 36
 
 
+@pytest.mark.parametrize("seed", [304, 392])
+def test_combinations_whose_terms_cancel_when_they_are_collected(seed: int) -> None:
+    """``-2 x' + 3 x' - x'`` is no occurrence of x'."""
+    assert solved(seed, "native")
+
+
 @pytest.mark.slow
 def test_many_linear_daes() -> None:
     assert sum(solved(seed, "native") for seed in range(40, 300)) >= 240

@@ -35,6 +35,20 @@ static int ac_slope(ac_work *w, double t, double *z, double *dz) {
     return 1;
 }
 
+/* Where no step is small enough the algebraic unknowns may not solve their equations: a step that ends just behind a kink
+   has their slopes before it, which may be those of an open valve for a closed one. Newton's method finds them from where
+   they are, unless it has been tried at this time; 0 if it moved them. */
+static AC_UNUSED int ac_resettle(ac_work *w, double t, double *tried) {
+    if (AC_N == AC_NX || *tried == t) return 1;
+    *tried = t;
+    double z[AC_N];
+    memcpy(z, w->z, sizeof z);
+    if (ac_slope(w, t, z, w->f)) return 1;
+    const int moved = memcmp(z, w->z, sizeof z);
+    memcpy(w->z, z, sizeof z);
+    return !moved;
+}
+
 #if AC_NR > 0
 /* How far condition k is on the other side than its mode says; what is positive counts, or 0 too where `at_zero`. */
 static inline double ac_beyond(const ac_work *w, const double *g, int k, int *at_zero) {

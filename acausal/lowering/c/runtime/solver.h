@@ -353,7 +353,7 @@ static double ac_until(const ac_problem *q, double t1, int event, int last) {
 
 static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
     const double direction = q->t1 >= q->t0 ? 1.0 : -1.0;
-    double t = q->t0, error_before = 1e-4, h_before = 0.0, sums[AC_NK + 1];
+    double t = q->t0, error_before = 1e-4, h_before = 0.0, tried = NAN, sums[AC_NK + 1];
     int forced = 0, rejected_before = 0, fresh = 1;
     ac_inputs(w, t);
     ac_field_jacobian(&w->m, t, w->z, w->f, w->ft, w->J);
@@ -395,6 +395,10 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
         const int finite = error - error == 0.0;
         const int at_floor = h <= 1.5 * floor_;
         int keep = finite && error <= 1.0;
+        if (!keep && at_floor && !ac_resettle(w, t, &tried)) {
+            fresh = 0, h = ac_max(h, 1e-3 * h_before);
+            continue;
+        }
         if (!keep && at_floor && finite && ac_jumped(q, w) && ++forced <= 50) keep = 1;
         else if (keep) forced = 0;
         if (!keep && at_floor) return singular ? AC_SINGULAR : AC_SMALLEST_STEP;

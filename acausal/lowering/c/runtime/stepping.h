@@ -12,7 +12,7 @@ typedef struct {
 /* Advances w->z from q->t_end to q->t1 (forward), or to the first event if they are located; at most q->max_steps steps.
    A result as that of acausal_run. */
 static AC_UNUSED int ac_advance(ac_problem *q, ac_work *w, ac_control *k) {
-    double t = q->t_end;
+    double t = q->t_end, tried = NAN;
     int forced = 0, fresh = 0, cut = 0;
 #if AC_NR > 0
     if (q->located) ac_arm(q, w, t);
@@ -49,6 +49,10 @@ static AC_UNUSED int ac_advance(ac_problem *q, ac_work *w, ac_control *k) {
         }
         const int finite = error - error == 0.0, at_floor = h <= 1.5 * least;
         int keep = finite && error <= 1.0;
+        if (!keep && at_floor && !ac_resettle(w, t, &tried)) {
+            fresh = 0, k->h = ac_max(h, 1e-3 * k->h_before);
+            continue;
+        }
         if (!keep && at_floor && finite && ac_jumped(q, w) && ++forced <= 50) keep = 1;
         else if (keep) forced = 0;
         if (!keep && at_floor) return singular ? AC_SINGULAR : AC_SMALLEST_STEP;
