@@ -121,7 +121,7 @@ def bodies(rng: np.random.Generator) -> tuple[Component, Books]:
 
 
 def network(rng: np.random.Generator) -> tuple[Component, Books]:
-    """A pump with a relief valve, orifices, valves and pipes between volumes and bare junctions, a cylinder with a load.
+    """A pump with a relief valve, orifices, valves, pipes between volumes and bare junctions, a cylinder with a load.
 
     Node 0 is the tank, the last one the pump's.
     """

@@ -16,8 +16,20 @@ from scipy import sparse
 from scipy.sparse.csgraph import maximum_bipartite_matching, min_weight_full_bipartite_matching
 from scipy.sparse.linalg import splu
 
-from ...errors import StructureError
 from ...language.template import Floats, Ints
+
+
+class SingularPattern(Exception):
+    """The entries of the algebraic equations have no matching.
+
+    Attributes:
+        rows, columns: equations and algebraic unknowns that are left over.
+    """
+
+    def __init__(self, rows: list[int], columns: list[int]) -> None:
+        super().__init__("the algebraic equations are structurally singular")
+        self.rows, self.columns = rows, columns
+
 
 UNROLLED = 3000
 """Multiplications of a factorisation up to which it is written out."""
@@ -117,7 +129,8 @@ def _matching(pattern: Any, mass: Any, weights: Floats | None) -> Ints:
     graph = sparse.csr_matrix((np.ones(block.nnz), (block.row, block.col)), shape=block.shape)
     found = maximum_bipartite_matching(graph, perm_type="column")
     if (found < 0).any():
-        raise StructureError("the algebraic equations are structurally singular")
+        left = np.setdiff1d(np.arange(len(rest)), found[found >= 0])
+        raise SingularPattern(rest[found < 0].tolist(), rest[left].tolist())
     partner[rest] = rest[found]
     return partner
 

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy import sparse
 
+from ...errors import StructureError
 from ...symbolic.expr import ZERO, Expr, par
 from ...symbolic.jacobian import Row
 from ...symbolic.traverse import substitute
 from ..hybrid import Hybrid
 from .emit import Hoisted, Writer
-from .factor import Factorisation, factor_lines, plan_factors, solve_lines
+from .factor import Factorisation, SingularPattern, factor_lines, plan_factors, solve_lines
 from .large import large_file
 from .roots import root_tables
 from .straight import TIME_COLUMN, Straight, family_residuals, reduce_strength, write_out
@@ -25,6 +26,7 @@ from .text import NotInC, array, braces
 if TYPE_CHECKING:
     from ...language.flat_model import Assignment, Family
     from ..initial import InitialProblem
+    from ..lowered import Lowered
     from ..parameters import ParameterProgram
 
 RUNTIME = (
@@ -84,7 +86,34 @@ def to_c(
 
     Raises:
         NotInC: the model calls Python functions; or it has very many retained constraints.
+        StructureError: unknowns of the algebraic equations occur in none of them.
     """
+    try:
+        return _written(program, problem, labels, roots, further, loops, observe_tangent)
+    except SingularPattern as error:
+        raise StructureError(_singular(problem.lowered, error)) from error
+
+
+def _singular(lowered: Lowered, error: SingularPattern) -> str:
+    reduced = lowered.schedule.reduced
+    flat = reduced.flat
+    equations = [
+        reduced.rows.locate(int(row))
+        for group in lowered.schedule.groups if group.kernel.iterates
+        for block in group.equations for row in block
+    ]  # fmt: skip
+    names = ", ".join(reduced.name(int(lowered.schedule.tears[k - lowered.n_x])) for k in error.columns)
+    lines = [f"    {flat.equation_text(f, k):<48} {' '.join(flat.equation_place(f, k))}" for f, k in equations]
+    return "\n".join([
+        f"`{flat.model_name}` is singular: nothing determines {names}, which cancels in what is left of these equations:",
+        *lines[:20], "Try: remove what says the same thing twice, and write what is missing instead.",
+    ])  # fmt: skip
+
+
+def _written(
+    program: ParameterProgram, problem: InitialProblem, labels: Callable[[int], str] | None, roots: Roots | None,
+    further: Mapping[str, Sequence[Family]] | None, loops: bool, observe_tangent: bool,
+) -> CSource:  # fmt: skip
     if loops:
         low = problem.lowered
         if low.n_g * low.n_x + (low.n_w * low.n_x if low.n_g else 0) > DENSE:
