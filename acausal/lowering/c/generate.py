@@ -105,7 +105,7 @@ def _singular(lowered: Lowered, error: SingularPattern) -> str:
     names = ", ".join(reduced.name(int(lowered.schedule.tears[k - lowered.n_x])) for k in error.columns)
     lines = [f"    {flat.equation_text(f, k):<48} {' '.join(flat.equation_place(f, k))}" for f, k in equations]
     return "\n".join([
-        f"`{flat.model_name}` is singular: nothing determines {names}, which cancels in what is left of these equations:",
+        f"`{flat.model_name}` is singular: nothing determines {names}, which cancels in these equations:",
         *lines[:20], "Try: remove what says the same thing twice, and write what is missing instead.",
     ])  # fmt: skip
 

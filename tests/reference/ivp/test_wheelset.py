@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Component, Equations, Expr, Variable, cos, der, sin, sqrt, tan, tanh, where
+from acausal import Component, Equations, Expr, Variable, cos, der, sin, sqrt, tanh, where
 
 MASS, GRAVITY, SPEED, RADIUS, I1, I2 = 16.08, 9.81, 30.0, 0.1, 0.0605, 0.366
 MU, X_SPRING, C_X, C_Z, E, G_ELLIPSE, SIGMA, SHEAR = 0.12, 0.19, 6400.0, 6400.0, 1.3537956, 0.7115218, 0.28, 7.92e10
