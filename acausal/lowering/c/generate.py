@@ -89,7 +89,7 @@ def to_c(
         StructureError: unknowns of the algebraic equations occur in none of them.
     """
     try:
-        return _written(program, problem, labels, roots, further, loops, observe_tangent)
+        return _written(program, problem, labels, hybrid, further, loops, observe_tangent)
     except SingularPattern as error:
         raise StructureError(_singular(problem.lowered, error)) from error
 
@@ -111,7 +111,7 @@ def _singular(lowered: Lowered, error: SingularPattern) -> str:
 
 
 def _written(
-    program: ParameterProgram, problem: InitialProblem, labels: Callable[[int], str] | None, roots: Roots | None,
+    program: ParameterProgram, problem: InitialProblem, labels: Callable[[int], str] | None, hybrid: Hybrid | None,
     further: Mapping[str, Sequence[Family]] | None, loops: bool, observe_tangent: bool,
 ) -> CSource:  # fmt: skip
     if loops:
