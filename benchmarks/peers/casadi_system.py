@@ -11,18 +11,27 @@ from acausal.symbolic.expr import Expr
 from acausal.symbolic.traverse import evaluate
 
 
-class _Functions:
+class Functions:
     """NumPy's names for CasADi's functions."""
 
     where = staticmethod(ca.if_else)
     minimum, maximum, sqrt, exp, log, log10, tanh = ca.fmin, ca.fmax, ca.sqrt, ca.exp, ca.log, ca.log10, ca.tanh
     sin, cos, tan, arcsin, arccos, arctan, arctan2 = ca.sin, ca.cos, ca.tan, ca.asin, ca.acos, ca.atan, ca.atan2
-    abs, sign, power, floor = ca.fabs, ca.sign, ca.power, ca.floor
+    sinh, cosh, arcsinh = ca.sinh, ca.cosh, ca.asinh
+    abs, sign, power, floor, ceil = ca.fabs, ca.sign, ca.power, ca.floor, ca.ceil
     logical_and, logical_or, logical_not = ca.logic_and, ca.logic_or, ca.logic_not
 
     @staticmethod
     def clip(x: Any, low: Any, high: Any) -> Any:
         return ca.fmin(ca.fmax(x, low), high)
+
+    @staticmethod
+    def mod(a: Any, b: Any) -> Any:
+        return a - b * ca.floor(a / b)
+
+    @staticmethod
+    def equal(a: Any, b: Any) -> Any:
+        return a == b
 
     @staticmethod
     def less(a: Any, b: Any) -> Any:
@@ -63,11 +72,11 @@ def to_casadi(system: Any) -> tuple[Any, Any, Any]:
             kernel = group.kernel
             if kernel.matrix:
                 k = len(kernel.matrix)
-                entries = evaluate([*(e for line in kernel.matrix for e in line), *kernel.rhs], leaf, _Functions)
+                entries = evaluate([*(e for line in kernel.matrix for e in line), *kernel.rhs], leaf, Functions)
                 matrix = ca.vertcat(*[ca.horzcat(*entries[i * k : (i + 1) * k]) for i in range(k)])
                 solved = ca.solve(matrix, ca.vertcat(*entries[k * k :]))
                 for i, u in enumerate(kernel.tears):
                     value[int(rows[u])] = solved[i]
             for u, expression in kernel.steps:
-                value[int(rows[u])] = evaluate((expression,), leaf, _Functions)[0]
+                value[int(rows[u])] = evaluate((expression,), leaf, Functions)[0]
     return t, x, ca.vertcat(*[value[int(v)] for v in low.dx_ids])

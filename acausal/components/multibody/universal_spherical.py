@@ -17,7 +17,7 @@ class UniversalSpherical(PartialTwoFrames):
     positive on frame_a when directed to frame_b. With `computeRodLength`, the length follows from the start.
 
     >>> bob = PointMass(m=3.0, r_0=start((0.0, -2.0, 0.0), fixed=True))
-    >>> rod = UniversalSpherical(n1_a=(1.0, 0.0, 0.0), computeRodLength=True)
+    >>> rod = UniversalSpherical(n1_a=(1.0, 0.0, 0.0), rRod_ia=(0.0, -1.0, 0.0), computeRodLength=True)
     >>> model = assemble("world.frame_b - rod.frame_a", "rod.frame_b - bob.frame_a", world=ac.inner(World(g=10.0)),
     ...                  rod=rod, bob=bob)
     >>> solution = run(model, at=[0.0])

@@ -1,0 +1,212 @@
+"""A solution beside the flat equations: their residuals, and other integrators on them.
+
+Between events the modes are held, so that each stretch is a smooth DAE ``F(t, v, v') = 0``, of whatever index the model
+as written has. It becomes ``x' = d, 0 = F(t, x, z)`` with the derivatives d among the unknowns z, and nothing else is
+done to it. Where F can be solved for z (index 1), SUNDIALS' IDAS integrates it. Where it cannot, Radau collocation does
+(both in CasADi): that is stable and convergent for the higher indices of mechanics, without index reduction (Hairer and
+Wanner, Solving Ordinary Differential Equations II, ch. VII.4). What was held is checked against what it stands for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from .docstrings import Run
+from .flat_equations import FlatEquations
+
+Floats = NDArray[np.float64]
+NODES = (1.0 - np.cos(np.pi * np.linspace(0.0, 1.0, 9))) / 2.0
+"""Times at which solutions are compared, as parts of the stretch between two events."""
+MIDDLE = len(NODES) // 2
+_ORDERS = np.arange(len(NODES))
+_MOMENTS = np.array([0.0 if k % 2 else 1.0 / (1.0 - k * k) for k in _ORDERS])
+WEIGHTS = np.linalg.solve(np.polynomial.chebyshev.chebvander(2.0 * NODES - 1.0, len(NODES) - 1).T, _MOMENTS)
+"""Of the nodes in an integral over the stretch (Clenshaw and Curtis)."""
+RTOL = 1e-10
+CLOSE = 1e-9
+"""Events closer than this part of the run are one; so long before an event its left limits are taken."""
+SHORT = 0.1
+"""An example that looks at the start only is run so long [s]."""
+ELEMENTS = 8, 32, 128
+"""Finite elements of collocation, until the solutions agree."""
+AGREES = 1e-5
+"""Largest difference between two solutions, relative to the size of each variable."""
+FLOOR = 1e-7
+"""Terms and variables smaller than this may be what rounding leaves of zero."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stretch:
+    """What `simulate` gives between two events.
+
+    Attributes:
+        t: times [s], shape (n,).
+        v: all variables of the flat model, shape (n_total, n).
+        modes: what is held.
+    """
+
+    t: Floats
+    v: Floats
+    modes: Floats
+
+
+class Check:
+    """One example's simulation beside its flat equations.
+
+    Attributes:
+        equations: the flat equations of its model.
+        stretches: the solution between events.
+        size: largest value of each variable, at least `FLOOR`.
+    """
+
+    def __init__(self, run: Run) -> None:
+        assert run.system.made_from is not None
+        self.equations = FlatEquations(run.system.made_from[0])
+        t1 = run.t1 or SHORT
+        options = {**run.options, "rtol": RTOL}
+        events = run.system.simulate(t1, **{**options, "saveat": np.array([0.0, t1])}).events
+        spans = _spans([0.0, *(event.t for event in events), t1], CLOSE * t1)
+        times = np.concatenate([a + (b - a) * NODES for a, b in spans])
+        solution = run.system.simulate(t1, **{**options, "saveat": times})
+        values = np.asarray(solution._values(np.arange(self.equations.flat.n_total)), float).T
+        self.stretches: list[Stretch] = []
+        for k in range(len(spans)):
+            part = slice(k * len(NODES), (k + 1) * len(NODES))
+            t, v = times[part], values[:, part]
+            self.stretches.append(Stretch(t, v, self.equations.settled(t[MIDDLE], v[:, MIDDLE])))
+        self.size = np.maximum(np.abs(values).max(axis=1), FLOOR)
+
+
+def _spans(times: list[float], close: float) -> list[tuple[float, float]]:
+    """Stretches between times that are not close to each other, without what an event is close to."""
+    return [
+        (a, b if last else b - 0.1 * close)
+        for a, b, last in zip(times[:-1], times[1:], [*(False for _ in times[2:]), True], strict=True)
+        if b - a > close
+    ]
+
+
+class Integrators:
+    """IDAS and Radau collocation on the flat equations of one model, on stretches of any length.
+
+    Attributes:
+        regular: whether the equations can be solved for everything but the states: index 1 or less.
+    """
+
+    def __init__(self, equations: FlatEquations, size: Floats) -> None:
+        self.equations, self.size = equations, size
+        self.x = equations.states.tolist()
+        self.z = np.setdiff1d(np.arange(equations.flat.n_total), self.x).tolist()
+        y, w = ca.SX.sym("y", max(len(self.x), 1)), ca.SX.sym("w", len(self.z))
+        span, tau = ca.SX.sym("span", 2), ca.SX.sym("tau")
+        v = ca.SX(equations.flat.n_total, 1)
+        v[self.z] = w * size[self.z]
+        if self.x:
+            v[self.x] = y * size[self.x]
+        t = span[0] + (span[1] - span[0]) * tau
+        (residual,) = ca.substitute([equations.residual], [equations.t, equations.v], [t, v])
+        slopes = v[equations.flat.derivative_of[self.x].tolist()] / size[self.x] if self.x else ca.SX(0)
+        jacobian = ca.jacobian(residual, w)
+        self.regular = jacobian.shape[0] == jacobian.shape[1] == ca.sprank(jacobian)
+        self.problem = {
+            "t": tau, "x": y, "z": w, "p": ca.vertcat(span, equations.m),
+            "ode": (span[1] - span[0]) * slopes, "alg": residual,
+        }  # fmt: skip
+
+    @cached_property
+    def idas(self) -> Any:
+        """SUNDIALS' IDAS: variable order and step."""
+        options = {"abstol": 10 * RTOL, "reltol": 10 * RTOL, "max_num_steps": 100_000}
+        return ca.integrator("run", "idas", self.problem, 0.0, NODES.tolist(), options)
+
+    def collocation(self, elements: int) -> Any:
+        """Radau collocation with five points in each finite element."""
+        newton = {"abstol": 1e-11, "max_iter": 20, "error_on_fail": False}
+        options = {
+            "interpolation_order": 5, "collocation_scheme": "radau", "number_of_finite_elements": elements,
+            "rootfinder": "newton", "rootfinder_options": newton,
+        }  # fmt: skip
+        return ca.integrator("run", "collocation", self.problem, 0.0, NODES.tolist(), options)
+
+    def run(self, integrator: Any, stretch: Stretch) -> Floats:
+        """All variables on the times of a stretch, (n_total, n), from its start; nan where the integrator fails."""
+        at_start, size = stretch.v[:, 0] / self.size, self.size[:, None]
+        found = np.full(stretch.v.shape, np.nan)
+        given = np.concatenate([stretch.t[[0, -1]], stretch.modes])
+        try:
+            result = integrator(x0=at_start[self.x] if self.x else 0.0, z0=at_start[self.z], p=given)
+        except RuntimeError:  # which says that the integrator failed; the caller goes on to another
+            return found
+        if self.x:
+            found[self.x] = result["xf"].full() * size[self.x]
+        found[self.z] = result["zf"].full() * size[self.z]
+        if integrator.class_name() == "Collocation":  # gives no unknowns at the start, and does not need them
+            found[:, 0] = stretch.v[:, 0]
+        return found
+
+    def disagreement(self, stretch: Stretch) -> float:
+        """Largest difference to another integrator's solution, relative to the size of each variable.
+
+        IDAS gives all variables. Of collocation the states count: for an index above 1 it amplifies rounding in the
+        unknowns, which the states and the residuals determine.
+        """
+        best = np.inf
+        if self.regular:
+            found = self.run(self.idas, stretch)
+            best = _largest(np.abs(found - stretch.v).max(axis=1) / self.size)
+        for elements in ELEMENTS:
+            if best <= AGREES:
+                break
+            found = self.run(self.collocation(elements), stretch)
+            best = min(best, _largest(np.abs(found - stretch.v).max(axis=1)[self.x] / self.size[self.x]))
+        return best
+
+
+def _largest(errors: Floats) -> float:
+    """The largest of some errors; nan is infinite."""
+    return float(np.max(np.where(np.isnan(errors), np.inf, errors), initial=0.0))
+
+
+def residual(check: Check) -> tuple[float, str]:
+    """Largest residual of the flat equations relative to the size of their terms, and the equation with its place."""
+    equations, worst = check.equations, (0.0, "")
+    for stretch in check.stretches:
+        n = len(stretch.t)
+        modes = np.tile(stretch.modes[:, None], (1, n))
+        left, sizes, _ = equations.evaluate.map(n)(stretch.t[None], stretch.v, modes)
+        relative = np.abs(left.full()).max(axis=1) / (sizes.full().max(axis=1) + FLOOR)
+        relative = np.where(np.isnan(relative), np.inf, relative)
+        k = int(np.argmax(relative))
+        worst = max(worst, (float(relative[k]), equations.places[k]))
+    return worst
+
+
+def drift(check: Check) -> float:
+    """Largest difference between the change of a state and the integral of its derivative, relative to its size."""
+    equations = check.equations
+    x, slopes = equations.states, equations.flat.derivative_of[equations.states]
+    changes = [
+        s.v[x, -1] - s.v[x, 0] - (s.t[-1] - s.t[0]) * (s.v[slopes] @ WEIGHTS) for s in check.stretches
+    ]  # fmt: skip
+    return max(_largest(np.abs(change) / check.size[x]) for change in changes)
+
+
+def broken(check: Check) -> list[str]:
+    """Conditions that do not stay as they are between two events."""
+    found: list[str] = []
+    for stretch in check.stretches:
+        at_times = [check.equations.subjects(t, v, stretch.modes) for t, v in zip(stretch.t, stretch.v.T, strict=True)]
+        for k, mode in enumerate(check.equations.modes):
+            if mode.kind != "relation":
+                continue
+            x = np.array([subjects[k][0] for subjects in at_times])
+            beyond = np.max(x) if stretch.modes[k] else -np.min(x)
+            if beyond > max(AGREES * np.max(np.abs(x)), FLOOR):
+                found.append(f"from {stretch.t[0]:g} s to {stretch.t[-1]:g} s: {mode.value}")
+    return found

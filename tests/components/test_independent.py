@@ -1,0 +1,80 @@
+"""The simulations in the docstrings of all components, against the flat equations and against other integrators.
+
+The flat equations are those the user wrote, in CasADi, before any elimination, index reduction, sorting and tearing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+pytest.importorskip("casadi")
+
+from acausal import Component
+from acausal.components import rotational
+
+from .docstrings import CLASSES, example_of
+from .independent import AGREES, Check, Integrators, broken, drift, residual
+from .test_library import named
+
+RESIDUAL = 1e-6
+"""Largest residual of an equation, relative to the size of its terms."""
+SPREAD = 8
+"""Every so many classes one is always tested, the others with the slow tests."""
+
+# Higher index as written, and collocation on fixed elements does not reach the tolerance. The residuals, and the
+# integrals of the derivatives, are checked nevertheless.
+NOT_INTEGRATED = {
+    "hydraulic.cylinders.Chamber", "multibody.free_joints.RevolutePlanarLoopConstraint", "planar.joints.Revolute",
+    "planar.sensors.AbsoluteVelocity", "planar.wheels.IdealRolling",
+}  # fmt: skip
+# The same, and nine points do not resolve the derivatives well enough for their integral either.
+RESIDUAL_ONLY = {"electrical.transistors.HeatingNPN", "electrical.transistors.HeatingPNP"}
+
+PARAMETERS = [
+    pytest.param(cls, id=named(cls), marks=() if k % SPREAD == 0 else pytest.mark.slow)
+    for k, cls in enumerate(CLASSES)
+]  # fmt: skip
+
+
+def checks(cls: type[Component]) -> list[Check]:
+    made = [Check(run) for run in example_of(cls).runs]
+    assert made, f"the example of {named(cls)} simulates nothing"
+    return made
+
+
+@pytest.mark.parametrize("cls", PARAMETERS)
+def test_example_agrees_with_independent_solution(cls: type[Component]) -> None:
+    name, found = named(cls), checks(cls)
+    for check in found:
+        worst, equation = residual(check)
+        assert worst <= RESIDUAL, f"residual {worst:.1e} of {equation}"
+        assert not broken(check), broken(check)
+    worst = max(_disagreement(check) for check in found)
+    if name in NOT_INTEGRATED | RESIDUAL_ONLY:
+        assert worst > AGREES, f"{name} agrees now: take it out of the list"
+        moved = max(map(drift, found))
+        assert (moved > AGREES) == (name in RESIDUAL_ONLY), f"integrals of derivatives are off by {moved:.1e}"
+    else:
+        assert worst <= AGREES, f"another integrator's solution differs by {worst:.1e}"
+
+
+def _disagreement(check: Check) -> float:
+    integrators = Integrators(check.equations, check.size)
+    return max(integrators.disagreement(stretch) for stretch in check.stretches)
+
+
+def test_lists_name_components() -> None:
+    names = set(map(named, CLASSES))
+    assert names >= NOT_INTEGRATED | RESIDUAL_ONLY
+
+
+def test_wrong_solutions_are_seen() -> None:
+    (check, *_) = checks(rotational.Inertia)
+    assert _disagreement(check) <= AGREES
+    (stretch, *_) = check.stretches
+    names = check.equations.names
+    stretch.v[names.index("der(" + names[check.equations.states[0]] + ")")] += 1e-3 * np.max(np.abs(stretch.v))
+    assert residual(check)[0] > RESIDUAL
+    stretch.v[check.equations.states, 1:] *= 1.001
+    assert _disagreement(check) > AGREES
