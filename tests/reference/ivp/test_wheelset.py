@@ -166,8 +166,12 @@ def test_index(index: int) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("events", [True, False])
 def test_published_solution(events: bool) -> None:
-    """Its creep forces saturate some 500 times. The published end holds six digits."""
+    """Its creep forces saturate some 500 times.
+
+    The published end is DASSL's at a tolerance of 1e-9: it holds five digits of the velocities, while runs here with
+    and without events, and at 1e-8 and 1e-10, agree in seven.
+    """
     system = ac.compile(Wheelset())
     solution = system.simulate(10.0, saveat=2, rtol=1e-8, events=events, engine="native")
     found, wanted = (np.array(v) for v in ([float(solution[k][-1]) for k in END], list(END.values())))
-    assert (np.abs(found - wanted) < 1e-6 * (np.abs(wanted) + 1e-4)).all()
+    assert (np.abs(found - wanted) < 5e-6 * (np.abs(wanted) + 1e-4)).all()
