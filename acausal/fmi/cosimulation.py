@@ -19,6 +19,10 @@ from .result import CoSimulationResult
 
 INITIAL_SWEEPS = 20
 _SAFETY, _SHRINK, _GROW = 0.9, 0.3, 1.5
+_INTEGRAL, _PROPORTIONAL = 0.3, 0.4
+"""Gains of the step control for steps that stability bounds: Gustafsson (1991), ACM Trans. Math. Softw. 17, 533-554."""
+_ENVELOPE, _FADE = 0.97, 0.95
+"""Part of the step that the envelope of the errors allows, and what is left of that envelope after a step."""
 _DIVERGED = 1e12
 """A signal this many times its nominal value has diverged."""
 Signal = float | Callable[[float], float]
@@ -239,7 +243,7 @@ class _Run:
         self.energy = np.zeros(len(master.bonds))
         self.defect = 0.0
         self.accepted = self.rejected = self.repeated = 0
-        self.error_before = 1.0
+        self.error_before, self.envelope = 1.0, 0.0
 
     # ---- start ----------------------------------------------------------------------------------------------------
     def start(self, t0: float) -> tuple[Floats, list[Floats]]:
@@ -301,7 +305,7 @@ class _Run:
             z, values = self.interface.resolve(t + h, ahead, end)
             self._check(t + h, z)
             error = self._error(ahead, z, residual, h)
-            factor = self._factor(error)
+            factor = self._factor(error, h)
             if m.tolerance is None or error <= 1.0 or h <= m.min_step * 1.001 or saved is None:
                 break
             self.rejected += 1
@@ -425,13 +429,23 @@ class _Run:
             return float(np.max(np.abs(residual)) / (scale * self.m.tolerance)) * h / self.m.step
         return self.defect / self.m.tolerance * h / self.m.step
 
-    def _factor(self, error: float) -> float:
-        """Factor on the macro step (PI control): the error grows with the power `order` + 2 of it."""
-        exponent = 1.0 / (self.m.order + 2)
+    def _factor(self, error: float, h: float) -> float:
+        """Factor on the macro step h (PI control): the error grows with the power `order` + 2 of it.
+
+        The error of the prediction of a signal that swings vanishes twice a period. A step that follows it each time
+        grows there beyond what the swing, or the stability of the coupling, allows, and is taken back soon after.
+        So it grows only as far as the envelope allows: the largest error by its step, which fades.
+        """
+        power = self.m.order + 2
         size = max(error, 1e-12)
-        factor = _SAFETY * size ** -(0.7 * exponent) * (self.error_before / size) ** (0.4 * exponent)
-        self.error_before = max(size, 1e-4) if size <= 1.0 else self.error_before
-        return float(np.clip(factor, _SHRINK, _GROW))
+        self.envelope = max(size / h**power, _FADE * self.envelope)
+        allowed = _ENVELOPE / (h * self.envelope ** (1.0 / power))
+        controlled = _SAFETY * size ** (-_INTEGRAL / power) * (self.error_before / size) ** (_PROPORTIONAL / power)
+        if size > 1.0:
+            controlled = min(controlled, _SAFETY * size ** (-1.0 / power))
+        else:
+            self.error_before = max(size, 1e-4)
+        return float(np.clip(min(controlled, allowed), _SHRINK, _GROW))
 
     def _check(self, t: float, z: Floats) -> None:
         for i, c in enumerate(self.m.couplings):
