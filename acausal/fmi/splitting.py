@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ..compiler import compile as compile_model
-from ..errors import AcausalError, ConnectError, StructureError
+from ..errors import AcausalError, ConnectError, DeclarationError, StructureError
 from ..language.component import Component, path_text
 from ..system import System
 from .cosimulation import CoSimulation
@@ -215,12 +215,15 @@ def split(
         the two sides, compiled, with all that a co-simulation of them needs.
 
     Raises:
-        DeclarationError: a path that is no connector.
+        DeclarationError: no instance of a component class, or a path that is no connector.
         StructureError: the two sides hang together in another way, or neither causality can be compiled.
 
     A potential that a side must differentiate (the position of a mass) is imposed as a polynomial in time, so that
     velocity and acceleration come with it.
     """
+    if not isinstance(model, Component):
+        what = f"the class `{model.__name__}`: call it" if isinstance(model, type) else type(model).__name__
+        raise DeclarationError(f"split takes an instance of a Component class, not {what}")
     paths = [at] if isinstance(at, str) else list(at)
     halves = cut_model(model, paths)
     choices = _choices(halves.cuts, potential_to)

@@ -180,6 +180,11 @@ def test_wrong_names(decay, gain):
         CoSimulation({"d": 3}, [])
 
 
+def test_a_class_is_not_a_model():
+    with pytest.raises(ac.DeclarationError, match=r"split takes an instance .*, not the class `TwoMasses`: call it"):
+        split(TwoMasses, "middle.flange_a")  # pyright: ignore[reportArgumentType]
+
+
 def test_jax_inside(masses):
     """Any diffrax solver can be inside a participant."""
     import diffrax
