@@ -138,14 +138,14 @@ def nand_gate() -> Component:
     )  # fmt: skip
 
 
-def multivibrator() -> Component:
-    """Electrical.Analog.Examples.OpAmps.Multivibrator."""
+def multivibrator(amp: Component | None = None) -> Component:
+    """Electrical.Analog.Examples.OpAmps.Multivibrator; with an amplifier of one's own."""
     return assemble(
         "amp.in_n - C.p - R.p", "amp.out - R.n - R2.n - out.p", "amp.in_p - R1.p - R2.p",
         "C.n - R1.n - ground.p - out.n",
         C=electrical.Capacitor(C=1e-4, v=start(8.0, fixed=True)), R=electrical.Resistor(R=1e3),
-        R1=electrical.Resistor(R=1e3), R2=electrical.Resistor(R=1e3), amp=electrical.IdealizedOpAmpLimited(V0=1e6),
-        ground=electrical.Ground(), out=electrical.VoltageSensor(),
+        R1=electrical.Resistor(R=1e3), R2=electrical.Resistor(R=1e3), ground=electrical.Ground(),
+        amp=amp or electrical.IdealizedOpAmpLimited(V0=1e6), out=electrical.VoltageSensor(),
     )  # fmt: skip
 
 

@@ -12,6 +12,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 import acausal as ac
+from acausal.components import electrical
 
 from . import msl_hybrid as msl
 
@@ -165,6 +166,20 @@ def test_multivibrator(engine: Any) -> None:
     turns = np.searchsorted(wanted, t)
     clear = np.abs(t[:, None] - wanted[None]).min(axis=1) > 1e-3
     assert_allclose(np.asarray(solution["out.v"])[clear], np.where(turns % 2 == 0, -15.0, 15.0)[clear], rtol=1e-9)
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6, 1e-8])
+def test_multivibrator_of_first_order(rtol: float) -> None:
+    """With a time constant of 10 us the switching is a mode that grows a thousand times faster than the error control
+    sees: a step that is too long for it would keep the output at an equilibrium that it has to leave."""
+    system = ac.compile(msl.multivibrator(electrical.OpAmpLimited(useFirstOrder=True)))
+    solution = system.simulate(1.0, saveat=101, rtol=rtol, engine="native")
+    clear = np.abs(np.asarray(solution["out.v"])) > 14.9
+    assert clear.mean() > 0.95
+    found = np.array([e.t for e in solution.events if any("amp" in c for c in e.causes)])
+    turns = found[np.diff(found, prepend=-1.0) > 1e-3]
+    assert_allclose(np.diff(turns)[1:], 0.1 * np.log(3.0), rtol=1e-3)
+    assert len(turns) == 10
 
 
 @both

@@ -164,6 +164,24 @@ static inline void ac_value(ac_work *w, double t, const double *z, double *f) {
     ac_field(&w->m, t, z, f);
 }
 
+/* Whether the determinant of the factors is negative, but for the order of the rows. */
+static int ac_negative(const ac_work *w) {
+    int odd = 0;
+    for (int i = 0; i < AC_N; i++) odd ^= w->F[AC_NF - AC_N + i] < 0.0;
+    return odd;
+}
+
+/* Whether a mode grows faster than a step of the size in d can follow. Such a step would damp it: beyond its pole at
+   h lambda = 1 / gamma an implicit method takes growth for decay, and a solution stays at an equilibrium that it has to
+   leave. The determinant of d M - J has changed its sign then, compared with that for a large d; `reference` is the sign
+   there, which is looked at again before anything is said. Modes in pairs are not seen.
+   Hairer and Wanner, Solving Ordinary Differential Equations II, IV.2 (poles of the stability function). */
+static int ac_outrun(ac_work *w, double d, int *reference) {
+    if (w->pivoted || ac_negative(w) == *reference) return 0;
+    if (!ac_factorise(w, copysign(1e30, d)) && !w->pivoted) *reference = ac_negative(w);
+    return !ac_factorise(w, d) && !w->pivoted && ac_negative(w) != *reference;
+}
+
 /* The eight stages from (t, z), whose f, ft, J are there, with the factors of W; u_8 is the error estimate. */
 static void ac_stages(ac_work *w, double t, double h) {
     const double inverse = 1.0 / h;
@@ -354,7 +372,7 @@ static double ac_until(const ac_problem *q, double t1, int event, int last) {
 static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
     const double direction = q->t1 >= q->t0 ? 1.0 : -1.0;
     double t = q->t0, error_before = 1e-4, h_before = 0.0, tried = NAN, sums[AC_NK + 1];
-    int forced = 0, rejected_before = 0, fresh = 1;
+    int forced = 0, rejected_before = 0, fresh = 1, reference = 0;
     ac_inputs(w, t);
     ac_field_jacobian(&w->m, t, w->z, w->f, w->ft, w->J);
     double h = q->first_step > 0.0 ? q->first_step : ac_first_step(q, w, direction);
@@ -386,6 +404,12 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
         q->steps++;
         const int singular = ac_factorise(w, 1.0 / (ac_gamma * step));
         q->pivoted += w->pivoted;
+        const int at_floor = h <= 1.5 * floor_;
+        if (!singular && !at_floor && ac_outrun(w, 1.0 / (ac_gamma * step), &reference)) {
+            q->rejected++;
+            h *= 0.5, rejected_before = 1;
+            continue;
+        }
         double error = NAN;
         if (!singular) {
             ac_stages(w, t, step);
@@ -393,7 +417,6 @@ static int ac_integrate(ac_problem *q, ac_work *w, void *tangents) {
             error = ac_error(q, w, AC_N);
         }
         const int finite = error - error == 0.0;
-        const int at_floor = h <= 1.5 * floor_;
         int keep = finite && error <= 1.0;
         if (!keep && at_floor && !ac_resettle(w, t, &tried)) {
             fresh = 0, h = ac_max(h, 1e-3 * h_before);

@@ -13,7 +13,7 @@ typedef struct {
    A result as that of acausal_run. */
 static AC_UNUSED int ac_advance(ac_problem *q, ac_work *w, ac_control *k) {
     double t = q->t_end, tried = NAN;
-    int forced = 0, fresh = 0, cut = 0;
+    int forced = 0, fresh = 0, cut = 0, reference = 0;
 #if AC_NR > 0
     if (q->located) ac_arm(q, w, t);
 #endif
@@ -40,14 +40,19 @@ static AC_UNUSED int ac_advance(ac_problem *q, ac_work *w, ac_control *k) {
             fresh = 1;
         }
         k->steps++;
-        const int singular = ac_factorise(w, 1.0 / (ac_gamma * h));
+        const int singular = ac_factorise(w, 1.0 / (ac_gamma * h)), at_floor = h <= 1.5 * least;
+        if (!singular && !at_floor && ac_outrun(w, 1.0 / (ac_gamma * h), &reference)) {
+            k->rejected++;
+            k->h = 0.5 * h, k->rejected_before = 1;
+            continue;
+        }
         double error = NAN;
         if (!singular) {
             ac_stages(w, t, h);
             ac_combine(w, ac_B, w->z, w->z1);
             error = ac_error(q, w, AC_N);
         }
-        const int finite = error - error == 0.0, at_floor = h <= 1.5 * least;
+        const int finite = error - error == 0.0;
         int keep = finite && error <= 1.0;
         if (!keep && at_floor && !ac_resettle(w, t, &tried)) {
             fresh = 0, k->h = ac_max(h, 1e-3 * k->h_before);
