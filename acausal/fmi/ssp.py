@@ -157,7 +157,8 @@ def read_ssp(path: str | os.PathLike[str], **options: Any) -> CoSimulation:
 
     Raises:
         CoSimulationError: no system structure package, or one with what cannot be simulated here: nested systems,
-            components that are no FMUs, transformations in connections, parameter files.
+            components that are no FMUs, transformations in connections, parameter files; or an input of the whole
+            system that is not among `inputs`.
     """
     file = Path(path)
     folder = tempfile.mkdtemp(prefix="acausal-ssp-")
@@ -183,6 +184,14 @@ def read_ssp(path: str | os.PathLike[str], **options: Any) -> CoSimulation:
 def _master(file: str, system: ElementTree.Element, folder: Path, options: Mapping[str, Any]) -> CoSimulation:
     connections = [_connection(file, c) for c in system.iterfind("ssd:Connections/ssd:Connection", _SPACES)]
     inner = [pair for pair in connections if all(not end.startswith(".") for end in pair)]
+    given = options.get("inputs") or {}
+    open_ends = [(a, b) for a, b in connections if a.startswith(".") and b not in given]
+    if open_ends:
+        a, b = open_ends[0]
+        raise CoSimulationError(
+            f"{file}: the system's own input `{a[1:]}` drives `{b}`, and nothing gives it a value. Give it as "
+            f"read_ssp(..., inputs={{'{b}': 0.0}}): a number, or a function of time."
+        )
     parts: dict[str, FmuParticipant] = {}
     for element in system.iterfind("ssd:Elements/*", _SPACES):
         name = element.get("name", "")

@@ -117,6 +117,21 @@ def test_what_cannot_be_read(master, tmp_path):
             read_ssp(rewritten(path, old, new))
 
 
+@BOTH
+def test_an_input_of_the_whole_system(master, tmp_path):
+    path = write_ssp(master, tmp_path / "masses.ssp")
+    first = document(path).decode()
+    i = first.index("<ssd:Connection ")
+    one = first[i : first.index("/>", i) + 2]
+    source = " ".join(w for w in one.split() if w.startswith("startElement="))
+    open_ended = rewritten(path, one, one.replace(source, "").replace("  ", " "))
+    with pytest.raises(CoSimulationError, match=r"own input `.*` drives `(.*)`, and nothing gives it a value") as told:
+        read_ssp(open_ended)
+    name = str(told.value).split("drives `")[1].split("`")[0]
+    with read_ssp(open_ended, inputs={name: 0.0}, bonds=()) as made:  # the bond has lost its connection
+        assert made.inputs
+
+
 def test_what_cannot_be_written(tmp_path):
     decay = ac.compile(Decay())
     with pytest.raises(CoSimulationError, match=r"a system structure package holds FMUs; `d` is none. Export it first"):
