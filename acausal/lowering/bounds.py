@@ -39,7 +39,9 @@ def check_parameters(flat: FlatModel, p: Any) -> None:
         raise InitializationError("\n".join(lines))
     built_in = np.flatnonzero(flat.evaluated & (values[: flat.n_par] != flat.evaluated_value))
     if len(built_in):
-        raise DeclarationError(f"`{flat.model_name}`: {evaluated_text(flat, built_in)}")
+        computed = np.concatenate([np.zeros(0, np.int64), *(a.targets for a in flat.par_assignments)])
+        given = np.setdiff1d(built_in, computed)  # what is computed has changed with what was given
+        raise DeclarationError(f"`{flat.model_name}`: {evaluated_text(flat, given if len(given) else built_in)}")
     low, high = _bounds(flat.root)
     outside = np.flatnonzero((values[: flat.n_par] < low) | (values[: flat.n_par] > high))
     if len(outside):
@@ -54,8 +56,9 @@ def check_parameters(flat: FlatModel, p: Any) -> None:
 def evaluated_text(flat: FlatModel, ids: Any) -> str:
     """What to say when evaluated parameters are to be changed."""
     names = ", ".join(f"`{flat.parameter_name(int(i))}`" for i in ids[:SHOWN])
+    are = "is" if len(ids) == 1 else "are"
     return (
-        f"{names} is built into the equations (Parameter(evaluate=True), or such a parameter is computed from it): "
+        f"{names} {are} built into the equations (Parameter(evaluate=True), or such a parameter is computed from it): "
         "construct the model with the new value and compile it again"
     )
 
