@@ -17,6 +17,7 @@ from jax import Array
 from acausal.errors import SimulationError
 
 from .cache import cache_of
+from .continuation import follow_in_time
 from .controller import ROUNDING, ErrorControl
 from .failure import explain
 from .inputs import drive
@@ -309,13 +310,13 @@ def _solve(
 def _without_states(
     lowered: Lowered, settings: _Settings, t0: Array, t1: Array, w0: Array, p: Array, points: Array | None
 ) -> tuple[Any, ...]:
-    """A model without states: its algebraic equations are solved at each output time."""
+    """A model without states: its algebraic equations are followed through time, and solved at each output time."""
     if settings.saveat[0] == "points":
         points = jnp.linspace(t0, t1, settings.saveat[1])
     ends = jnp.stack([t0, t1])
     t = ends if points is None else jnp.concatenate([points, ends[1:]])
     x = jnp.zeros((t.shape[0], 0))
-    w = _follow(lowered, t, x, w0, p) if lowered.n_w else jnp.zeros((t.shape[0], 0))
+    w = follow_in_time(lowered, t0, t, w0, p) if lowered.n_w else jnp.zeros((t.shape[0], 0))
     none = jnp.asarray(0)
     shown = slice(None) if points is None else slice(None, -1)
     code = jnp.where(jnp.isfinite(w).all(), 0, -1)

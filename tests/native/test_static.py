@@ -134,3 +134,32 @@ def test_large() -> None:
     solution = native(Star(), 6.0, saveat=t)
     wanted = [brentq(lambda v, u=u: v + 2.5 * v**3 - u, -3.0, 3.0, xtol=1e-15) for u in 2 * np.sin(0.2 * np.pi * t)]
     assert_allclose(solution["cells.v"], np.tile(np.array(wanted)[:, None], 150), atol=1e-10)
+
+
+class Revolving(Component):
+    """An angle given by sine and cosine, which fit at every half turn."""
+
+    rate: Parameter = Parameter(7.0)
+    angle: Variable = Variable(start=0.4)
+
+    def equations(self) -> Equations:
+        lag = self.angle - self.rate * ac.time
+        yield ac.sin(lag) == 0.5 * ac.cos(lag)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize("save", [[0.0, 3.0], [3.0], [0.0, 1.4, 3.0]])
+def test_far_output_times_stay_on_the_branch(engine: Any, save: list[float]) -> None:
+    solution = ac.compile(Revolving()).simulate(3.0, saveat=save, engine=engine, rtol=1e-8)
+    wanted = 7.0 * np.array(save) + np.arctan(0.5)
+    assert np.asarray(solution["angle"]) == pytest.approx(wanted, abs=1e-9)
+
+
+def test_slopes_over_far_output_times() -> None:
+    system = ac.compile(Revolving())
+
+    def final(rate: Any) -> Any:
+        return system.simulate(3.0, parameters={"rate": rate}, saveat=[0.0, 3.0], engine="diffrax")["angle"][-1]
+
+    assert float(jax.grad(final)(7.0)) == pytest.approx(3.0, rel=1e-9)
+    assert float(jax.jacfwd(final)(7.0)) == pytest.approx(3.0, rel=1e-9)

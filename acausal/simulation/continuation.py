@@ -1,0 +1,60 @@
+"""Algebraic equations alone followed through time, so that far output times do not land on another of their solutions.
+
+Source: Allgower and Georg (2003), Introduction to numerical continuation methods, chapter 2: a predictor along the
+tangent, Newton's method as the corrector, and a step that is halved where the corrector moves far.
+"""
+
+from __future__ import annotations
+
+import jax
+import jax.numpy as jnp
+from jax import Array
+
+from .lowered import Lowered
+
+MOVED = 0.1
+"""How far the corrector may move, relative to the size of an unknown."""
+SMALLEST = 2.0**-10
+"""Smallest step relative to the distance of two output times; taken wherever the corrector goes, as across a jump."""
+
+
+def follow_in_time(lowered: Lowered, t0: Array, t: Array, w0: Array, p: Array) -> Array:
+    """The unknowns `w` at the times `t`, shape (n_t, n_w), from `w0` at `t0`.
+
+    The way from one time to the next gives a guess only: derivatives are those of the equations at the output times.
+    """
+    x = jnp.zeros(0)
+
+    def step(carry: tuple[Array, Array], target: Array) -> tuple[tuple[Array, Array], Array]:
+        before, w = carry
+        guess = _continued(lowered, *(jax.lax.stop_gradient(a) for a in (before, target, w, p)))
+        found = lowered.solve_algebraic(target, x, guess, p)
+        good = jnp.all(jnp.isfinite(found))
+        return (target, jnp.where(good, found, w)), found
+
+    return jax.lax.scan(step, (t0, w0), t)[1]
+
+
+def _continued(lowered: Lowered, begin: Array, end: Array, w: Array, p: Array) -> Array:
+    """A guess of the unknowns at `end`, from their values at `begin`."""
+    x, size = jnp.zeros(0), jnp.asarray(lowered.w_nominal, float)
+    span = end - begin
+
+    def at(s: Array, guess: Array) -> Array:
+        return lowered.solve_algebraic(begin + s * span, x, guess, p)
+
+    def advance(state: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
+        s, h, w = state
+        h = jnp.minimum(h, 1.0 - s)
+        slope = jax.jvp(lambda s: at(s, w), (s,), (jnp.ones_like(s),))[1]
+        predicted = w + h * jnp.where(jnp.isfinite(slope), slope, 0.0)
+        found = at(s + h, predicted)
+        near = jnp.all(jnp.abs(found - predicted) <= MOVED * jnp.maximum(size, jnp.abs(w)))
+        finite, last = jnp.all(jnp.isfinite(found)), h <= SMALLEST
+        taken = finite & (near | last)
+        # where nothing solves the equations any more the search ends, and the output time shows it
+        s = jnp.where(taken, s + h, jnp.where(last, 1.0, s))
+        return s, jnp.where(taken, 2.0 * h, 0.5 * h), jnp.where(taken, found, w)
+
+    start = (jnp.zeros_like(span), jnp.ones_like(span), w)
+    return jax.lax.while_loop(lambda state: state[0] < 1.0, advance, start)[2]
