@@ -161,7 +161,7 @@ def simulate_events(
         roots = _switched(hybrid, equations, t_end, z_end, p, slack) if happened else None
         return Stretch(found, result, n, t_end, z_end, 0.0, roots, named)
 
-    stretch = integrate if low.n_x else static_integrate(hybrid, equations)
+    stretch = integrate if low.n_x else static_integrate(hybrid, equations, np.asarray(low.w_nominal, float))
     run = run_hybrid(iteration, outcome, t0, t1, save, stretch, first_step=0.0, max_steps=most)
     result = RESULTS[run.code] if run.code else "successful" if run.ended is None else f"terminated: {run.ended}"
     stats = {k: run.counts[k] for k in ("steps", "accepted", "rejected")}

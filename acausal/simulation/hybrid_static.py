@@ -13,12 +13,15 @@ from acausal.errors import SimulationError
 from acausal.lowering.hybrid import Hybrid
 
 from .conditions import modes, sides
+from .continuation import MOVED, SMALLEST
 from .event_iteration import Equations
 from .hybrid_run import EVENT, Integrate
 from .native_library import Floats
 
 BETWEEN = 4
 """Points between two output times at which conditions are looked at, the later one included."""
+TANGENT = 1e-6
+"""Difference of time for the tangent, relative to the step."""
 
 
 @dataclass(eq=False)
@@ -36,13 +39,30 @@ class Stretch:
     passed: Sequence[tuple[float, int, Any]] = ()
 
 
-def static_integrate(hybrid: Hybrid, equations: Equations) -> Integrate:
-    """Stretches of a model without states."""
+def static_integrate(hybrid: Hybrid, equations: Equations, nominal: Floats) -> Integrate:
+    """Stretches of a model without states, whose unknowns have the sizes `nominal`."""
 
-    def solved(t: float, z: Floats, p: Floats) -> Floats:
+    def attempt(t: float, z: Floats, p: Floats) -> Floats | None:
         p = p.copy()
         equations.feed(t, p)
-        found = equations.settle(t, z, p)
+        return equations.settle(t, z, p)
+
+    def solved(begin: float, t: float, z: Floats, p: Floats) -> Floats:
+        """From z at `begin`, along the tangent, in steps that the corrector follows with a small move."""
+        here, h, found = begin, t - begin, z
+        while here < t:
+            h = min(h, t - here)
+            beside = attempt(here + TANGENT * h, z, p)
+            ahead = z if beside is None else z + (beside - z) / TANGENT
+            found = attempt(here + h, ahead, p)
+            last = h <= SMALLEST * (t - begin)
+            if found is None and last:
+                break
+            near = found is not None and np.all(np.abs(found - ahead) <= MOVED * np.maximum(nominal, np.abs(z)))
+            if found is not None and (near or last):
+                here, z, h = (t if here + h >= t else here + h), found, 2.0 * h
+            else:
+                h *= 0.5
         if found is None:
             raise SimulationError(f"At t = {t:.12g} s the algebraic equations have no solution near the last one.")
         return found
@@ -65,12 +85,12 @@ def static_integrate(hybrid: Hybrid, equations: Equations) -> Integrate:
             target = float(min(save[n], stop)) if n < len(save) else stop
             for k in range(1, BETWEEN + 1):
                 there = target if k == BETWEEN else here + (target - here) * k / BETWEEN
-                z_there = solved(there, z, p)
+                z_there = solved(here, there, z, p)
                 count += 1
                 if switched(there, z_there).any():
                     low, high = here, there
                     while (middle := 0.5 * (low + high)) not in (low, high):
-                        z_middle = solved(middle, z, p)
+                        z_middle = solved(here, middle, z, p)
                         if switched(middle, z_middle).any():
                             high, z_there = middle, z_middle
                         else:

@@ -163,3 +163,20 @@ def test_slopes_over_far_output_times() -> None:
 
     assert float(jax.grad(final)(7.0)) == pytest.approx(3.0, rel=1e-9)
     assert float(jax.jacfwd(final)(7.0)) == pytest.approx(3.0, rel=1e-9)
+
+
+class Turning(Revolving):
+    """With a condition on the angle, found between output times."""
+
+    y: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.y == ac.where(self.angle > 10.0, 1.0, 0.0)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_far_output_times_stay_on_the_branch_with_events(engine: Any) -> None:
+    solution = ac.compile(Turning()).simulate(3.0, saveat=[0.0, 3.0], engine=engine, rtol=1e-8)
+    assert float(np.asarray(solution["angle"])[-1]) == pytest.approx(21.0 + np.arctan(0.5), abs=1e-9)
+    assert [e.t for e in solution.events] == pytest.approx([(10.0 - np.arctan(0.5)) / 7.0], abs=1e-6)
