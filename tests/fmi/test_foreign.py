@@ -212,18 +212,19 @@ def reference(name: str, version: str) -> ac.fmi.Fmu:
     return ac.fmi.load(Path(folder) / version / f"{name}.fmu")
 
 
+class VanDerPol(Component):
+    x0: Variable = Variable(start=2.0, fixed=True)
+    x1: Variable = Variable(start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield der(self.x0) == self.x1
+        yield der(self.x1) == (1 - self.x0**2) * self.x1 - self.x0
+
+
 @BOTH
 def test_reference_van_der_pol(version):
     unit = reference("VanDerPol", version)
     solution = ac.compile(unit.component()).simulate(5.0, saveat=51, rtol=1e-8)
-
-    class VanDerPol(Component):
-        x0: Variable = Variable(start=2.0, fixed=True)
-        x1: Variable = Variable(start=0.0, fixed=True)
-
-        def equations(self) -> Equations:
-            yield der(self.x0) == self.x1
-            yield der(self.x1) == (1 - self.x0**2) * self.x1 - self.x0
 
     exact = ac.compile(VanDerPol()).simulate(5.0, saveat=51, rtol=1e-10)
     np.testing.assert_allclose(solution["x0"], exact["x0"], atol=1e-5)
@@ -264,14 +265,6 @@ def test_reference_arrays_are_refused():
 def test_reference_derivatives(version):
     """A gradient through the unit's directional derivatives equals that of the same equations."""
     import jax
-
-    class VanDerPol(Component):
-        x0: Variable = Variable(start=2.0, fixed=True)
-        x1: Variable = Variable(start=0.0, fixed=True)
-
-        def equations(self) -> Equations:
-            yield der(self.x0) == self.x1
-            yield der(self.x1) == (1 - self.x0**2) * self.x1 - self.x0
 
     unit = reference("VanDerPol", version)
     assert unit.directional
