@@ -171,6 +171,19 @@ class Sampled(Component):
         yield when(sample(0.0, 0.25), {self.u: -self.k * self.x})
 
 
+class Dosed(Component):
+    """Two vessels that exchange what is in them and lose nothing; a dose changes their sum, by `when` and `reinit`."""
+
+    a: Variable = Variable(start=1.0, fixed=True)
+    b: Variable = Variable(start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield der(self.a) == self.b - self.a
+        yield der(self.b) == self.a - self.b
+        yield when(sample(0.3, 0.25), ac.reinit(self.a, ac.pre(self.a) + 1.0))
+        yield when(self.b > 1.2, ac.reinit(self.b, ac.pre(self.b) - 0.5))
+
+
 class Rectifier(Component):
     """An ideal diode: its mode and the algebraic equations decide each other."""
 

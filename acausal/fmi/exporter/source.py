@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 LARGEST = 20_000
 """Operations up to which a model is written out in C."""
 FIXED = ("instance.h", "hybrid.h", "values.h", "advance.h", "directional.h")
-MORE_RUNTIME = ("stepping.h",)
 KINDS = ("me", "cs")
 SOLVERS = ("rodas5p", "rk4", "adams")
 """Methods of co-simulation; the position is the number in ``instance.h``."""
@@ -93,8 +92,6 @@ def tables(
 def fixed_files(version: str) -> dict[str, str]:
     """The files that are the same for all models, by name."""
     own = files("acausal.fmi.exporter") / "c"
-    runtime = files("acausal.lowering.c") / "runtime"
     major = version[0]
-    out = runtime_files() | {n: (runtime / n).read_text(encoding="utf-8") for n in MORE_RUNTIME}
     names = (*FIXED, f"fmi{major}_types.h", f"fmi{major}.c")
-    return out | {n: (own / n).read_text(encoding="utf-8") for n in names}
+    return runtime_files() | {n: (own / n).read_text(encoding="utf-8") for n in names}

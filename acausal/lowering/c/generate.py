@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from ..parameters import ParameterProgram
 
 RUNTIME = (
-    "acausal.h", "solver.h", "events.h", "scan.h", "modes.h", "explicit.h", "projection.h", "conserved.h", "families.h",
-    "initialize.h", "start.h",
+    "acausal.h", "solver.h", "events.h", "scan.h", "modes.h", "tangent.h", "stepping.h", "integrate.h", "explicit.h",
+    "projection.h", "conserved.h", "families.h", "initialize.h", "start.h",
 )  # fmt: skip
 TANGENTS = "AC_TANGENTS"
 DENSE = 4_000_000

@@ -60,7 +60,7 @@ static int fmu_terminate(fmu_instance *f) {
    there; Adams begins with a step that those before it suggest. */
 static int fmu_solve(fmu_instance *f, ac_problem *q, ac_work *w) {
 #if FMU_SOLVER == FMU_RODAS5P
-    return ac_advance(q, w, &f->s.control);
+    return ac_integrate(q, w, &f->s.control, NULL);
 #else
     const double span = q->t1 - q->t0;
     q->method = FMU_SOLVER == FMU_RK4 ? AC_RK4 : AC_ADAMS;

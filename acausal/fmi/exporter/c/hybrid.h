@@ -346,6 +346,7 @@ static int fmu_event(fmu_instance *f, const int *switched, int sampled, int fina
         fmu_event_values(f);
         fmu_remember(f);
     }
+    f->s.control = ac_anew(f->s.control.h); /* states may have jumped */
     fmu_forget(f);
     f->algebraic_known = 1;
     return FMU_OK;

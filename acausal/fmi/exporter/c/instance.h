@@ -17,7 +17,6 @@
 #define FMU_RK4 1
 #define FMU_ADAMS 2
 #include "equations.c"
-#include "stepping.h"
 
 enum { FMU_OK, FMU_WARNING, FMU_DISCARD, FMU_ERROR, FMU_FATAL }; /* as in FMI 2 and 3 */
 enum { FMU_MODEL_EXCHANGE, FMU_CO_SIMULATION };
