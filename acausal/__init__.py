@@ -19,14 +19,9 @@ from .errors import UnitError as UnitError
 from .errors import UnknownNameError as UnknownNameError
 from .language.blackbox import function as function
 from .language.blackbox import table as table
-from .language.component import Array as Array
 from .language.component import Component as Component
 from .language.component import Connector as Connector
 from .language.component import Equations as Equations
-from .language.component import conditional as conditional
-from .language.component import inner as inner
-from .language.component import outer as outer
-from .language.component import structural as structural
 from .language.connections import connect as connect
 from .language.declarations import Discrete as Discrete
 from .language.declarations import Flow as Flow
@@ -48,6 +43,11 @@ from .language.events import smooth as smooth
 from .language.events import terminal as terminal
 from .language.events import terminate as terminate
 from .language.events import when as when
+from .language.fields import Array as Array
+from .language.fields import conditional as conditional
+from .language.fields import inner as inner
+from .language.fields import outer as outer
+from .language.fields import structural as structural
 from .language.functions import PI as PI
 from .language.functions import abs as abs
 from .language.functions import acos as acos

@@ -9,10 +9,13 @@ from types import new_class
 from typing import Any, cast
 
 from ..errors import ConnectError, DeclarationError, StructureError, nearest
-from ..language.component import Component, Connector, constraint_of, path_text, view
+from ..language.checking import constraint_of
+from ..language.component import Component, Connector
 from ..language.connections import Connect
 from ..language.declarations import Declaration, Input, Kind, Output, Parameter
 from ..language.elaborate import Elaborator
+from ..language.fields import view
+from ..language.instance import path_text
 from ..language.template import Template
 from ..symbolic.equation import Equation
 from ..symbolic.expr import Expr

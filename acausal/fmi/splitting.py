@@ -15,7 +15,8 @@ import numpy as np
 
 from ..compiler import compile as compile_model
 from ..errors import AcausalError, ConnectError, DeclarationError, StructureError
-from ..language.component import Component, path_text
+from ..language.component import Component
+from ..language.instance import path_text
 from ..system import System
 from .cosimulation import CoSimulation
 from .coupling import PowerBond

@@ -15,6 +15,7 @@ from ..symbolic.expr import add, neg, var
 from .connections import Connect
 from .declarations import Kind
 from .flat_model import Bools, Family, Source
+from .instance import path_text
 from .template import Ints, Path, Template
 
 Edge = tuple[Ints, Ints, int]
@@ -74,8 +75,6 @@ def _fit(a: Ints, b: Ints, item: Connect, origin: Origin) -> tuple[Ints, Ints]:
     m = len(a)
     a, b = a.reshape(m, -1), b.reshape(m, -1)
     if a.shape[1] != b.shape[1] and 1 not in (a.shape[1], b.shape[1]):
-        from .component import path_text
-
         names = ", ".join(path_text(p) for p in item.paths)
         raise ConnectError(
             f"connect({names}): slices of {a.shape[1]} and {b.shape[1]} elements do not fit; both need as many, "

@@ -7,7 +7,8 @@ from typing import Any
 
 from ..errors import ConnectError
 from ..symbolic.expr import Expr
-from .component import Component, Connector, call_site, path_of
+from .component import Component, Connector
+from .instance import call_site, path_of
 from .vectors import Vector
 
 Path = tuple[Any, ...]

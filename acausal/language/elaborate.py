@@ -15,22 +15,14 @@ from ..errors import AcausalError, DeclarationError
 from ..symbolic.equation import DEFINITION, Equation, Origin
 from ..symbolic.expr import Expr, as_expr, intern_node, symbol
 from ..symbolic.traverse import leaves, substitute
-from .component import (
-    Array,
-    Component,
-    Connector,
-    Shared,
-    effective_child,
-    merged,
-    numbers,
-    path_text,
-    present,
-    view,
-    with_structure,
-)
+from .checking import numbers
+from .children import effective_child, merged, present, with_structure
+from .component import Component, Connector, with_modifications
 from .connections import Connect
 from .declarations import STATE_SELECT, Declaration, Kind, Start
 from .events import Assert, When
+from .fields import Array, Shared, view
+from .instance import path_text, record
 from .overdetermined import Choice, DerivativeRule, Mark
 from .template import (
     Attributes,
@@ -81,7 +73,7 @@ class Elaborator:
         cls = type(component)
         mods = component.__dict__["_mods"]
         if mods and not cls._partial and _plain(cls, mods):
-            template, attributes = self.elaborate(_bare(cls), step)
+            template, attributes = self.elaborate(record(cls, {}), step)
             attributes = attributes.copy()
             self.stack.append(Frame(cls, step))
             for name, value in mods.items():
@@ -304,12 +296,6 @@ def _plain(cls: type[Component], mods: dict[str, Any]) -> bool:
     return True
 
 
-def _bare(cls: type[Component]) -> Component:
-    bare = object.__new__(cls)
-    bare.__dict__["_mods"], bare.__dict__["_path"] = {}, ()
-    return bare
-
-
 def _key(template: Template) -> Any:
     children = tuple(
         (slot.name, slot.role, slot.count, tuple(map(id, slot.templates))) for slot in template.children.values()
@@ -352,10 +338,7 @@ def resolve_scope(child: Any, cls: type[Component], level: int) -> Any:
         mods = child.__dict__["_mods"]
         if not mods:
             return child
-        copy = object.__new__(type(child))
-        copy.__dict__["_path"] = ()
-        copy.__dict__["_mods"] = {k: resolve_scope(v, cls, level) for k, v in mods.items()}
-        return copy
+        return record(type(child), {k: resolve_scope(v, cls, level) for k, v in mods.items()})
     if isinstance(child, (Expr, Declaration)):
         return Bound(level, in_scope(as_expr(child), cls))
     if isinstance(child, Start) and isinstance(child.value, (Expr, Declaration)):
@@ -382,8 +365,6 @@ def _reject_unresolved(component: Any, path: Path) -> None:
 
 def _columns(child: Array[Any], n: int, name: str) -> tuple[Component, dict[str, Any]]:
     """The first element of an array, and the values of all elements for its own quantities that vary."""
-    from .component import with_modifications
-
     element = child._element
     given = {**element.__dict__["_mods"], **child._values}
     columns: dict[str, Any] = {}
@@ -417,8 +398,6 @@ def _has_sequence(component: Any) -> bool:
 
 def _element_mods(element: Component, values: dict[str, Any], i: int, n: int, name: str) -> Component:
     """Element `i` of an array whose values vary."""
-    from .component import with_modifications
-
     picked = {k: _pick(v, i, n, f"{name}.{k}") for k, v in {**element.__dict__["_mods"], **values}.items()}
     bound = {k: v for k, v in picked.items() if isinstance(v.value if isinstance(v, Start) else v, Bound)}
     copy = with_modifications(element, {k: v for k, v in picked.items() if k not in bound})

@@ -18,6 +18,7 @@ from .connection_sets import ConnectionGraph, solve_connections
 from .declarations import Kind
 from .elaborate import Elaborator
 from .flat_model import Assignment, Family, FlatModel, Source, canonical
+from .instance import path_text
 from .loops import LoopFinder, holds
 from .overdetermined import Overdetermined
 from .spanning_forest import Forest
@@ -97,8 +98,6 @@ class Flattener:
 
     @staticmethod
     def _check_outer(visit: Visit, name: str, wanted: Template) -> None:
-        from .component import path_text
-
         found = visit.outer.get(name)
         where = path_text((*visit.path, name))
         cls = visit.template.cls
@@ -225,8 +224,6 @@ class Flattener:
 
 
 def _text(path: Path, tail: Path) -> str:
-    from .component import path_text
-
     return path_text((*path, *tail))
 
 

@@ -11,9 +11,10 @@ import numpy as np
 from ..errors import DeclarationError
 from ..symbolic.expr import Expr, as_expr, var
 from ..symbolic.traverse import leaves, substitute
-from .component import path_text, view
 from .connection_sets import ConnectionGraph
+from .fields import view
 from .flat_model import Bools, Family, Source
+from .instance import path_text, record
 from .overdetermined import Mark, Overdetermined, RootCondition
 from .spanning_forest import Forest, Link, Roots, spanning_forest
 from .template import Ints, Path, Template
@@ -130,8 +131,7 @@ def overdetermined_parts(template: Template) -> list[tuple[int, Template]]:
 
 def _closures(template: Template, rows: Ints) -> list[Family]:
     """``equality_constraint`` of the connectors at both ends of connections; `rows`: (node, node, source, number)."""
-    bare = object.__new__(template.cls)
-    bare.__dict__.update(_mods=dict(template.structural), _path=())
+    bare = record(template.cls, dict(template.structural))
     a, b = (view(bare, (side,)) for side in "ab")
     out: list[Family] = []
     for residual in a.equality_constraint(b):

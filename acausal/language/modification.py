@@ -6,18 +6,12 @@ from collections.abc import Mapping, Sequence
 from typing import Any, TypeVar, cast
 
 from ..errors import DeclarationError, nearest
-from .component import (
-    Array,
-    Component,
-    Shared,
-    by_element,
-    call_site,
-    checked,
-    effective_child,
-    merged,
-    with_modifications,
-)  # fmt: skip
+from .checking import by_element, checked
+from .children import effective_child, merged
+from .component import Component, with_modifications
 from .declarations import Value
+from .fields import Array, Shared
+from .instance import call_site, record
 
 C = TypeVar("C", bound=Component)
 
@@ -76,17 +70,11 @@ def _modify_one(given: C, effective: Component, parts: list[str], value: Any, pa
     below = given.__dict__["_mods"].get(head)
     if isinstance(child, Array):
         element = below._element if isinstance(below, Array) else below if isinstance(below, Component) else None
-        changed = _modify_one(element or _bare(child._element), child._element, parts[1:], value, path)
+        changed = _modify_one(element or record(type(child._element), {}), child._element, parts[1:], value, path)
         if isinstance(below, Array):
             return with_modifications(given, {head: Array(changed, below._count, **below._values)})
         return with_modifications(given, {head: changed})
     if not isinstance(child, Component):
         raise DeclarationError(f"`{path}`: `{head}` is a list of components: give a new list {call_site()}")
-    return with_modifications(given, {head: _modify_one(below or _bare(child), child, parts[1:], value, path)})
-
-
-def _bare(component: C) -> C:
-    """A component of the same class without modifications, whatever its declarations need."""
-    bare = object.__new__(type(component))
-    bare.__dict__["_mods"], bare.__dict__["_path"] = {}, ()
-    return bare
+    changed = _modify_one(below or record(type(child), {}), child, parts[1:], value, path)
+    return with_modifications(given, {head: changed})

@@ -15,7 +15,8 @@ from typing import Any, ClassVar, Literal
 from ..errors import DeclarationError
 from ..symbolic.equation import Equation
 from ..symbolic.expr import Expr
-from .component import Connector, call_site
+from .component import Connector
+from .instance import call_site
 from .vectors import Matrix, Vector, VectorEquation
 
 Path = tuple[Any, ...]

@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from ..errors import DeclarationError, nearest
 from ..symbolic.equation import Origin
 from ..symbolic.expr import Expr
-from .component import Component, Connector, field_names, path_text
+from .component import Component, Connector
 from .connections import Connect
 from .declarations import Kind
+from .instance import field_names, path_text
 from .overdetermined import Mark, RootCondition
 
 Ints = NDArray[np.int64]

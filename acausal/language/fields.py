@@ -1,0 +1,130 @@
+"""Fields that hold components: arrays of them, shared ones, conditional ones, and how they are seen at a path."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, Generic, TypeVar, cast, overload
+
+from ..errors import DeclarationError, nearest
+from .instance import Instance, call_site, field_names, path_text, record
+
+C = TypeVar("C", bound=Instance)
+
+
+class Array(Generic[C]):
+    """A field of `count` equal components: ``cells: Array[Cell] = Array(Cell(), "n")``.
+
+    Args:
+        element: the component that is repeated.
+        count: an integer, or the name of a structural parameter or of a property of the class.
+        **values: per-element values of the element's parameters or start values, sequences of length `count`.
+    """
+
+    def __init__(self, element: C, count: int | str, **values: Any) -> None:
+        cls = type(element)
+        for name in values:
+            if name not in field_names(cls):
+                hint = nearest(name, field_names(cls))
+                raise DeclarationError(
+                    f"Array({cls.__name__}(), {count!r}, {name}=...): `{cls.__name__}` has no field `{name}`.{hint} "
+                    f"{call_site()}"
+                )
+        self._element = element
+        self._count = count
+        self._values = values
+        self._path: tuple[Any, ...] = ()
+        self._length: int | None = count if isinstance(count, int) else None
+
+    def __len__(self) -> int:
+        if self._length is None:
+            raise DeclarationError(f"the length of this array is the structural parameter {self._count!r} of its owner")
+        return self._length
+
+    @overload
+    def __getitem__(self, index: int) -> C: ...
+    @overload
+    def __getitem__(self, index: slice) -> C: ...
+    def __getitem__(self, index: int | slice) -> C:
+        n = len(self)
+        if isinstance(index, slice):
+            return cast(C, view(self._element, (*self._path, range(*index.indices(n)))))
+        if not -n <= index < n:
+            raise DeclarationError(f"index {index} of component array `{path_text(self._path)}` is outside 0..{n - 1}")
+        return cast(C, view(self._element, (*self._path, index % n)))
+
+    def __iter__(self) -> Iterator[C]:
+        return (self[i] for i in range(len(self)))
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self[:], name)
+
+    def __repr__(self) -> str:
+        return f"Array({self._element!r}, {self._count!r})"
+
+
+class Shared:
+    """Wrapper of an `inner` or `outer` component."""
+
+    def __init__(self, component: Any, role: str) -> None:
+        self.component = component
+        self.role = role
+
+
+class Conditional:
+    """Wrapper of a sub-component that exists only where a structural parameter says so."""
+
+    def __init__(self, component: Instance, condition: str) -> None:
+        self.component = component
+        self.condition = condition
+
+
+class StructuralReference:
+    """A structural parameter of the owner, as the value of one of a sub-component."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __repr__(self) -> str:
+        return f"structural({self.name!r})"
+
+
+def structural(name: str) -> Any:
+    """The value of the owner's structural parameter `name`, in the declaration of a sub-component.
+
+    ``body: Body = Body(angles_fixed=structural("angles_fixed"))``. (Parameters are passed on by themselves, `m=m`.)
+    """
+    return StructuralReference(name)
+
+
+def conditional(component: C, condition: str) -> C:
+    """Declare a sub-component or connector that exists only where the boolean field `condition` is True.
+
+    ``heatPort: HeatPort = conditional(HeatPort(), "useHeatPort")``. The class's equations and connections refer to it
+    under ``if self.useHeatPort:``.
+    """
+    return cast(C, Conditional(component, condition))
+
+
+def inner(component: C) -> C:
+    """Declare a component that sub-components at any depth can share by declaring `outer` under the same name."""
+    return cast(C, Shared(component, "inner"))
+
+
+def outer(component: C) -> C:
+    """Refer to the nearest enclosing component of the same name that is declared `inner`; `component` is its type."""
+    return cast(C, Shared(component, "outer"))
+
+
+def view(child: Any, path: tuple[Any, ...]) -> Any:
+    """`child` seen at `path`: its fields read as expressions with that path."""
+    if isinstance(child, Shared):
+        return view(child.component, path)
+    if isinstance(child, Array):
+        seen = Array(child._element, child._count, **child._values)
+        seen._path, seen._length = path, child._length
+        return seen
+    if isinstance(child, (list, tuple)):
+        return [view(c, (*path, i)) for i, c in enumerate(child)]
+    return record(type(child), child.__dict__["_mods"], path)
