@@ -15,9 +15,10 @@ from acausal.lowering.c.text import NotInC
 from acausal.lowering.numeric import is_concrete
 
 from .hybrid_run import HybridRun
-from .native import Given, NativeModel, Tolerances, native_model
+from .native import NativeModel, native_model
 from .native_build import NoCompiler, compiler
 from .native_library import METHODS, RESULTS, Floats, Run, Signal
+from .started import Given, Tolerances
 from .watch import watch
 
 if TYPE_CHECKING:

@@ -6,69 +6,31 @@ Nothing here needs JAX; `native_jax` wraps it for JAX's transformations.
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from acausal.errors import InitializationError
-from acausal.language.template import Ints
 from acausal.lowering.bounds import check_parameters
 from acausal.lowering.c.generate import CSource, to_c
-from acausal.lowering.initial import EASE_ALGEBRAIC, SATISFIED, given_starts
-from acausal.lowering.initial_numeric import conditions_of, least_change, solve_numeric
-from acausal.lowering.numeric import NumericRun
+from acausal.lowering.initial import SATISFIED, given_starts
+from acausal.lowering.initial_numeric import solve_numeric
 from acausal.symbolic.traverse import postorder
 
-from .event_iteration import EventIteration, Move, Outcome, left_starts
-from .event_tangents import EventTangents
+from .event_iteration import EventIteration
 from .hybrid_run import HybridRun, run_hybrid, warn
+from .hybrid_tangents import run_with_tangents
 from .native_build import build
 from .native_library import METHODS, Floats, NativeLibrary, Run, Signal
+from .start_tangents import StartTangents
+from .started import Given, Seed, Started, Tolerances, given_mask, own_conditions
 
 LARGEST = 1_000
 """Operations up to which a system is written out in C: compiling grows faster than their number."""
 WIDTHS = (1, 2, 4, 8)
 """Numbers of directions that a library is compiled for; more directions take several runs."""
-
-
-@dataclass(slots=True, eq=False)
-class Given:
-    """Values that a user gave, as numbers.
-
-    Attributes:
-        parameters, initial: dotted name to value.
-        signals: of all inputs of the model, in order.
-    """
-
-    parameters: Mapping[str, Any]
-    initial: Mapping[str, Any]
-    signals: Sequence[Signal]
-
-
-@dataclass(slots=True, eq=False)
-class Tolerances:
-    """How a run is controlled: as the arguments of `simulate`."""
-
-    rtol: float
-    atol: Floats
-    first_step: float = 0.0
-    max_steps: int = 1_000_000
-    method: str = "rodas5p"
-
-
-@dataclass(slots=True, eq=False)
-class Started:
-    """A consistent start: z0, parameters, residuals left, mask of the parameters given; with events their iteration."""
-
-    z0: Floats
-    p: Floats
-    left: Floats
-    mask: Any
-    iteration: EventIteration | None = None
-    outcome: Outcome | None = None
-    moves: list[Move] = field(default_factory=list[Move])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -128,11 +90,7 @@ class NativeModel:
         system = self.system
         program, problem = system.program, system.initial
         p = program.base.copy()
-        mask = np.zeros(program.n_p, np.uint8)
-        for name, value in given.parameters.items():
-            ids = self.parameter_ids(name)
-            mask[ids] = 1
-            p[ids] = np.broadcast_to(np.asarray(value, float), ids.shape)
+        mask = given_mask(system, given.parameters, p)
         for k, (times, values) in enumerate(given.signals):
             p[program.flat.n_par + k] = np.interp(t0, times, values)
         if self.large:
@@ -143,7 +101,7 @@ class NativeModel:
             starts = program.flat.start.copy()
             library.starts(p, starts)
         overrides = system._overrides(given.initial, np)
-        own = not self.large and _own_conditions(problem, overrides)
+        own = not self.large and own_conditions(problem, overrides)
 
         def solve(p: Floats) -> tuple[Floats, Floats]:
             if own and problem.lowered.n_x + problem.lowered.n_w:
@@ -175,13 +133,6 @@ class NativeModel:
     def large(self) -> bool:
         """Whether families are loops."""
         return bool(self.source.tables)
-
-    def parameter_ids(self, name: str) -> Any:
-        """Numbers of a parameter (of an array: of all elements)."""
-        cache = self.system.cache.setdefault("parameter_ids", {})
-        if name not in cache:
-            cache[name] = self.system.program.flat.names.find(name, parameter=True)[0].ravel()
-        return cache[name]
 
     # ---- run --------------------------------------------------------------------------------------
     def run(
@@ -247,7 +198,7 @@ class NativeModel:
                 slopes.append(dz[:, :, : len(chosen)])
                 p_slopes.append(dp[:, : len(chosen)])
                 continue
-            dz0, dp = self._start_tangent(t0, given, started, library, chosen)
+            dz0, dp = self._start_tangents(library).at(t0, given.initial, started, chosen)
             run = library.run(
                 t0, t1, started.z0, started.p, save, rtol=how.rtol, atol=how.atol, signals=given.signals,
                 first_step=how.first_step, max_steps=how.max_steps, tangents=(dz0, dp),
@@ -263,128 +214,29 @@ class NativeModel:
         how: Tolerances, seeds: Sequence[Seed],
     ) -> tuple[HybridRun, Floats, Floats]:  # fmt: skip
         """A run with events and its derivatives: of z and the slots (n_t, n + n_slots, lanes), of p (n_p, lanes)."""
-        iteration, outcome = started.iteration, started.outcome
-        assert iteration is not None and outcome is not None
-        tangents = EventTangents(iteration, lambda t: np.array([_slope(s, t) for s in given.signals]))
-        first = replace(started, z0=started.moves[0].z, p=started.moves[0].p)
-        moving: list[Any] = [*tangents.start(started.moves, *self._start_tangent(t0, given, first, library, seeds))]
-        found: list[Floats] = []
+        iteration = started.iteration
+        assert iteration is not None
 
         def integrate(
-            t: float, stop: float, z: Floats, p: Floats, save: Floats, step: float, end_open: bool, steps: int
-        ) -> Run:
+            t: float, stop: float, z: Floats, p: Floats, save: Floats, step: float, end_open: bool, steps: int,
+            dz: Floats, dp: Floats,
+        ) -> tuple[Run, Floats, Floats]:  # fmt: skip
             run = library.run(
                 t, stop, z, p, save, rtol=how.rtol, atol=how.atol, signals=given.signals, first_step=step,
                 max_steps=steps, method=METHODS.index(how.method), noise=iteration.noise, end_open=end_open,
-                tangents=(moving[0], moving[1]),
+                tangents=(dz, dp),
             )  # fmt: skip
-            assert run.dz is not None
-            held = moving[1][iteration.hybrid.slots]
-            held = np.broadcast_to(held, (run.saved, *held.shape))
-            found.append(np.concatenate([run.dz[: run.saved], held], axis=1))
-            moving[0] = run.dz_end
-            return run
+            assert run.dz is not None and run.dz_end is not None
+            return run, run.dz[: run.saved], run.dz_end
 
-        def at_event(t: float, segment: Any, after: Outcome, samples: list[int]) -> None:
-            roots = segment.switched if segment is not None and segment.code else None
-            moving[:] = tangents.event(iteration.moves, after.p, moving[0], moving[1], roots, samples)
-
-        run = run_hybrid(
-            iteration, outcome, t0, t1, save, integrate, first_step=how.first_step, max_steps=how.max_steps,
-            at_event=at_event,
+        return run_with_tangents(
+            started, t0, t1, save, given, self._start_tangents(library), seeds,
+            lambda t: np.array([_slope(s, t) for s in given.signals]), integrate, first_step=how.first_step,
+            max_steps=how.max_steps,
         )  # fmt: skip
-        dz = np.concatenate(found)
-        last = np.concatenate([moving[0], moving[1][iteration.hybrid.slots]])[None]
-        if len(dz) < len(run.z) or run.closed:  # the end itself, where `terminate` or `terminal()` have changed it
-            dz = np.concatenate([dz[: len(run.z) - 1], last])
-        return run, dz, moving[1]
 
-    def _start_tangent(
-        self, t0: float, given: Given, started: Started, library: NativeLibrary, seeds: Sequence[Seed]
-    ) -> tuple[Floats, Floats]:
-        """Tangents of z0 (n, lanes) and p (n_p, lanes): the implicit-function theorem at the start.
-
-        Where the conditions leave freedom, start values move the solution within the null space of the Jacobian.
-        """
-        system, lanes = self.system, library.lanes
-        program, problem = system.program, system.initial
-        low = problem.lowered
-        dp = np.zeros((program.n_p, lanes))
-        for k, seed in enumerate(seeds):
-            if seed.kind != "initial":
-                first = program.flat.n_par if seed.kind == "input" else 0
-                dp[first + np.array(seed.indices), k] = 1.0
-        d_starts, starts = self._starts_tangent(library, started, dp)
-        if system.hybrid is not None:
-            for piece, ids, signs in left_starts(system.hybrid):
-                dp[piece.slots] = (signs * problem.start_sign[ids])[:, None] * d_starts[problem.start_source[ids]]
-        overrides = system._overrides(given.initial, np)
-        given_at = given_starts(problem, starts, overrides, np)
-        dz = np.zeros((library.n, lanes))
-        known = np.concatenate([low.schedule.states, low.schedule.tears])
-        source, sign = problem.start_source[known], problem.start_sign[known]
-        dz[:] = sign[:, None] * np.where(np.isnan(starts[source])[:, None], 0.0, d_starts[source])
-        dz[low.n_x :] = 0.0
-        ids = given_at.ids
-        d_wanted = problem.start_sign[ids, None] * d_starts[problem.start_source[ids]]
-        position = {int(v): i for i, v in enumerate(low.schedule.states)}
-        further = [v for v in overrides if v not in position]  # their conditions come last
-        row = {v: len(ids) - len(further) + i for i, v in enumerate(further)}
-        d_wanted[len(ids) - len(further) :] = 0.0
-        for k, seed in enumerate(seeds):
-            for index, sign_of in zip(seed.indices, seed.signs, strict=True) if seed.kind == "initial" else ():
-                if index in row:
-                    d_wanted[row[index], k] = sign_of
-                else:
-                    dz[position[index]] = 0.0
-                    dz[position[index], k] = sign_of
-        own = not self.large and _own_conditions(problem, overrides)
-        j, rate = self._conditions_tangent(library, t0, started, dz, dp, None if own else ids)
-        n_w, n_g = low.n_w, low.n_g
-        rate[n_w + n_g : n_w + n_g + len(ids)] -= d_wanted
-        fixed = given_at.fixed if given_at.conditions else np.ones(low.n_x, bool)
-        free = np.concatenate([np.flatnonzero(~fixed), low.n_x + np.arange(n_w)])
-        ease = np.concatenate([problem.ease, EASE_ALGEBRAIC * low.w_nominal])[free]
-        if len(free) and len(rate):
-            dz[free] += ease[:, None] * least_change(j[:, free], ease, rate)
-        return dz, dp
-
-    def _starts_tangent(self, library: NativeLibrary, started: Started, dp: Floats) -> tuple[Floats, Floats]:
-        """Tangents of the start values and the values; `dp` is completed in place."""
-        program = self.system.program
-        if self.large:
-            return program.tangents(started.p, started.mask.astype(bool), dp), program.starts(started.p, np)
-        library.parameters_tangent(started.mask, started.p, dp)
-        d_starts = np.zeros((len(program.flat.start), library.lanes))
-        library.starts_tangent(started.p, dp, d_starts)
-        starts = program.flat.start.copy()
-        library.starts(started.p, starts)
-        return d_starts, starts
-
-    def _conditions_tangent(
-        self, library: NativeLibrary, t0: float, started: Started, dz: Floats, dp: Floats, ids: Ints | None
-    ) -> tuple[Any, Floats]:
-        """Jacobian of the start's conditions with respect to z, and their tangents (n_i, lanes).
-
-        `ids` are the variables whose start is a condition, where these are not those that were compiled.
-        """
-        if ids is None:
-            slope = library.conditions(started.p, t0, started.z0)[1]
-            return slope, library.conditions_tangent(started.p, dp, t0, started.z0, dz)
-        problem = self.system.initial
-        low = problem.lowered
-        x, w = started.z0[: low.n_x], started.z0[low.n_x :]
-        run = NumericRun(low, t0, x, w, started.p, np.arange(low.n_x), dz, dp)
-        invariants, extra = (run.families(f)[1] for f in (low.schedule.invariants, problem.families))
-        rate = np.concatenate([run.residual[1], invariants, run.gradient[ids], extra])
-        if not len(rate):
-            return np.zeros((0, low.n_x + low.n_w)), rate
-        found = conditions_of(problem, t0, started.p, ids, np.zeros(len(ids)))
-        if found is None:
-            raise InitializationError(
-                "the start of this model is too large for the native engine's derivatives; take engine='diffrax'"
-            )
-        return found[0](started.z0)[1], rate
+    def _start_tangents(self, library: NativeLibrary) -> StartTangents:
+        return StartTangents(self.system, None if self.large else library, library.lanes)
 
     # ---- what follows from the states -------------------------------------------------------------
     def observe(
@@ -408,21 +260,6 @@ class NativeModel:
         return found
 
 
-@dataclass(frozen=True, slots=True)
-class Seed:
-    """One direction of differentiation: a parameter, an input that is constant, or the start value of a variable.
-
-    Attributes:
-        kind: ``parameter``, ``input`` or ``initial``.
-        indices: its numbers: of parameters, of an input, of reduced variables, that all take the same value.
-        signs: of aliases.
-    """
-
-    kind: str
-    indices: tuple[int, ...]
-    signs: tuple[float, ...]
-
-
 def _slope(signal: Signal, t: float) -> float:
     """Rate of an input."""
     times, values = signal
@@ -440,12 +277,6 @@ def operations(lowered: Any) -> int:
         roots = [e for _, e in kernel.steps] + list(kernel.residuals) + [e for line in kernel.matrix for e in line]
         total += group.size * (len(postorder(roots)) + len(kernel.matrix) ** 3 // 10)
     return total
-
-
-def _own_conditions(problem: Any, overrides: Mapping[int, Any]) -> bool:
-    """Whether the conditions of the start are those that were compiled: further fixed starts are of states only."""
-    states = set(problem.lowered.schedule.states.tolist())
-    return all(k in states for k in overrides)
 
 
 def native_model(system: Any) -> NativeModel:

@@ -24,9 +24,10 @@ from .cache import ById
 from .engines import ATOL, INVARIANT_SAFETY, POINTS
 from .hybrid_run import HybridRun
 from .inputs import drive
-from .native import Given, NativeModel, Seed, Tolerances
+from .native import NativeModel
 from .native_library import RESULTS
 from .solution import Solution
+from .started import Given, Seed, Tolerances, parameter_ids
 from .watch import Stop, watch
 
 
@@ -233,7 +234,7 @@ def _seeds(model: NativeModel, spec: _Spec, values: Any, moving: tuple[int, ...]
     representative, sign = model.system.observed_ids
     places: list[tuple[str, Any, Any]] = []
     for name in spec.parameters:
-        ids = model.parameter_ids(name)
+        ids = parameter_ids(model.system, name)
         places.append(("parameter", ids, np.ones(len(ids))))
     for name in spec.initial:
         ids = np.ravel(model.system.index_of(name))

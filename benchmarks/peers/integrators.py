@@ -99,7 +99,8 @@ def best(run: Callable[[], Any], repeats: int) -> tuple[float, Any]:
 def native(crane: Crane, repeats: int) -> tuple[Tool, Tool]:
     """The native engine: the compiled solve alone, and the whole call of `simulate`."""
     from acausal.simulation.engines import tolerances
-    from acausal.simulation.native import Given, native_model
+    from acausal.simulation.native import native_model
+    from acausal.simulation.started import Given
 
     system = crane.system
     model = native_model(system)

@@ -52,7 +52,8 @@ class Methods:
     """
 
     def __init__(self, crane: Crane) -> None:
-        from acausal.simulation.native import Given, native_model
+        from acausal.simulation.native import native_model
+        from acausal.simulation.started import Given
 
         self.crane = crane
         model = native_model(crane.system)
