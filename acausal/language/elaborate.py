@@ -60,8 +60,10 @@ class Elaborator:
 
     def __init__(self) -> None:
         self.templates: dict[Any, Template] = {}
-        self.plain: dict[type[Component], tuple[Template, Attributes]] = {}
+        self.plain: dict[Any, tuple[Template, Attributes]] = {}
         self.stack: list[Frame] = []
+        self.shared: dict[str, Component] = {}  # `inner` components of those on the stack: class and structure
+        self.outer: dict[Any, Template] = {}
 
     def root(self, component: Component) -> tuple[Template, Attributes]:
         """Template and numbers of a whole model."""
@@ -80,20 +82,25 @@ class Elaborator:
                 self._set(cls, template, attributes, name, value)
             self.stack.pop()
             return template, attributes
-        if not mods and cls in self.plain:
-            return self.plain[cls]
+        bare = (cls, *((name, *_structure(c)) for name, c in self.shared.items()))
+        if not mods and bare in self.plain:
+            return self.plain[bare]
         if cls._partial and (cls._declarations or not issubclass(cls, Connector)):
             raise DeclarationError(
                 f"`{self._where(step) or cls.__name__}` is an instance of the partial class `{cls.__name__}` "
                 f"({cls._source[0]}:{cls._source[1]}): replace it by one of its subclasses"
             )
         self.stack.append(Frame(cls, step))
+        outside = self.shared
         try:
+            component = _seeing(component, outside)
+            self.shared = outside | _inner_components(component)
             template, attributes = self._elaborate(component)
         finally:
+            self.shared = outside
             self.stack.pop()
         if not mods:
-            self.plain[cls] = (template, attributes)
+            self.plain[bare] = (template, attributes)
         return template, attributes
 
     def _elaborate(self, component: Component) -> tuple[Template, Attributes]:
@@ -199,14 +206,21 @@ class Elaborator:
         if isinstance(child, Shared):
             role, child = child.role, child.component
         if role == "outer":
-            template, _ = Elaborator().elaborate(child, (name,)) if not type(child)._partial else _partial_outer(child)
-            return ChildSlot(name, [template], None, role), []
+            return ChildSlot(name, [self._outer(child, name)], None, role), []
         if isinstance(child, Array):
             return self._array(component, name, child)
         if isinstance(child, list):
             return self._list(name, child, role)
         template, attributes = self.elaborate(child, (name,))
         return ChildSlot(name, [template], None, role), [attributes]
+
+    def _outer(self, child: Component, name: str) -> Template:
+        """Template of what an `outer` declaration refers to: for its names only."""
+        key = _structure(child)
+        if key not in self.outer:
+            partial = type(child)._partial
+            self.outer[key] = _partial_outer(child) if partial else Elaborator().elaborate(child, (name,))[0]
+        return self.outer[key]
 
     def _array(self, component: Component, name: str, child: Array[Any]) -> tuple[ChildSlot, list[Attributes]]:
         n = len(child) if child._length is not None else len(effective_child(component, name))
@@ -262,10 +276,47 @@ class Elaborator:
         return path_text(tuple(part for f in self.stack[1:] for part in f.step) + step)
 
 
-def _partial_outer(child: Component) -> tuple[Template, None]:
+def _partial_outer(child: Component) -> Template:
     template = Template(type(child), {})
     template.layout_own()
-    return template, None
+    return template
+
+
+def _structure(component: Component) -> tuple[Any, ...]:
+    """Class and structural parameters."""
+    mods, names = component.__dict__["_mods"], type(component)._structural
+    return type(component), *((name, value) for name, value in mods.items() if name in names)
+
+
+def _inner_components(component: Component) -> dict[str, Component]:
+    """Those that `component` declares `inner`, with their structural parameters alone."""
+    found: dict[str, Component] = {}
+    for name, descriptor in type(component)._children.items():
+        if isinstance(descriptor.default, Shared) and descriptor.default.role == "inner" and present(component, name):
+            child = effective_child(component, name).component
+            found[name] = bare = _bare(type(child))
+            bare.__dict__["_mods"].update(_structure(child)[1:])
+    return found
+
+
+def _seeing(component: Component, shared: dict[str, Component]) -> Component:
+    """`component`, whose `outer` declarations are what the enclosing `inner` components are: methods, structure.
+
+    So a method that a subclass overrides is the one that is called (gravity of a `World`, say).
+    """
+    seen: dict[str, Component] = {}
+    for name, descriptor in type(component)._children.items():
+        declared: Any = descriptor.default
+        if not isinstance(declared, Shared) or declared.role != "outer" or name not in shared:
+            continue
+        if issubclass(type(shared[name]), type(declared.component)):  # else an error once all is flat
+            seen[name] = shared[name]
+    if not seen:
+        return component
+    copy = object.__new__(type(component))
+    copy.__dict__["_mods"] = {**component.__dict__["_mods"], **seen}
+    copy.__dict__["_path"] = component.__dict__["_path"]
+    return copy
 
 
 def _state_select(component: Component, declaration: Declaration) -> Any:

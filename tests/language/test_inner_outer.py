@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import acausal as ac
-from acausal import Array, Component, Equations, Parameter, Variable, der, inner, outer
+from acausal import Array, Component, Equations, Expr, Parameter, Variable, der, inner, outer
 from acausal.language.flatten import flatten
 
 from .parts import Pin
@@ -128,3 +128,51 @@ def test_something_else_above() -> None:
 
     with pytest.raises(ac.DeclarationError, match="inner `world` is a `Air`, not a `World`"):
         flatten(Wrong())
+
+
+class Hall(World):
+    """A world that says how heavy things are in it."""
+
+    def weight(self, m: Expr) -> Expr:
+        return m * self.g
+
+
+class Lift(Hall):
+    """Things are heavier here while it accelerates."""
+
+    accelerates: bool = True
+
+    def weight(self, m: Expr) -> Expr:
+        return super().weight(m) * (2 if self.accelerates else 1)
+
+
+class Bag(Component):
+    """Its equation is made by a method of the world."""
+
+    world: Hall = outer(Hall())
+    f: Variable = Variable(unit="N")
+    m: Parameter = Parameter(3.0, unit="kg")
+
+    def equations(self) -> Equations:
+        yield self.f == self.world.weight(self.m)
+
+
+class Scales(Component):
+    world: Hall = inner(Hall(g=10.0))
+    bag: Bag = Bag()
+    more: Bag = Bag(m=4.0)
+
+
+@pytest.mark.parametrize(("world", "wanted"), [(Hall(), 30.0), (Lift(), 60.0), (Lift(accelerates=False), 30.0)])
+def test_methods_and_structure_of_the_inner_component_count(world: Hall, wanted: float) -> None:
+    solution = ac.compile(Scales(world=world)).simulate(1.0, saveat=[1.0])
+    assert solution["bag.f"][0] == wanted and solution["more.f"][0] == wanted * 4 / 3
+
+
+def test_each_sees_the_inner_component_above_it() -> None:
+    class Building(Component):
+        hall: Scales = Scales()
+        lift: Scales = Scales(world=Lift())
+
+    solution = ac.compile(Building()).simulate(1.0, saveat=[1.0])
+    assert solution["hall.bag.f"][0] == 30.0 and solution["lift.bag.f"][0] == 60.0
