@@ -291,3 +291,21 @@ def test_methods_are_checked(systems: dict[type, ac.System]) -> None:
         systems[Decay].simulate(1.0, solver="rk4", engine="native")
     with pytest.raises(SimulationError, match="no solver 'adams'"):
         systems[Decay].simulate(1.0, solver="adams", engine="diffrax")
+
+
+class NoNumber(ac.Component):
+    """The first derivative is no number, the second one is."""
+
+    b: ac.Parameter = ac.Parameter(-1.0)
+    x: ac.Variable = ac.Variable(start=1.0, fixed=True)
+    y: ac.Variable = ac.Variable(start=1.0, fixed=True)
+
+    def equations(self) -> ac.Equations:
+        yield ac.der(self.x) == ac.sqrt(self.b)
+        yield ac.der(self.y) == -self.y
+
+
+@pytest.mark.parametrize("solver", ["rodas5p", "adams"])
+def test_what_is_no_number_is_no_solution(solver: str) -> None:
+    with pytest.raises(SimulationError, match=r"der\(x\) is nan there"):
+        ac.compile(NoNumber()).simulate(1.0, engine="native", solver=solver)

@@ -23,6 +23,8 @@ static const ac_vector ac_zero = {0.0};
 
 static inline AC_UNUSED double ac_min(double a, double b) { return a <= b ? a : b; }
 static inline AC_UNUSED double ac_max(double a, double b) { return a >= b ? a : b; }
+/* The larger of both; what is not a number stays. */
+static inline AC_UNUSED double ac_worse(double worst, double x) { return x <= worst || worst != worst ? worst : x; }
 static inline AC_UNUSED double ac_clip(double x, double lo, double hi) { return x < lo ? lo : x > hi ? hi : x; }
 static inline AC_UNUSED double ac_sign(double x) { return (x > 0.0) - (x < 0.0); }
 static inline AC_UNUSED double ac_mod(double a, double b) { return a - b * floor(a / b); }

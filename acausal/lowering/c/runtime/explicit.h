@@ -129,7 +129,7 @@ static double ac_scaled(const ac_problem *q, const ac_work *w, double factor, co
     double worst = 0.0;
     for (int i = 0; i < AC_NX; i++) {
         const double size = fabs(factor * phi[i]) / (q->atol[i] + q->rtol * ac_max(fabs(w->z[i]), fabs(w->z1[i])));
-        if (!(size <= worst)) worst = size;
+        worst = ac_worse(worst, size);
     }
     return worst;
 }

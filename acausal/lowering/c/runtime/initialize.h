@@ -64,7 +64,7 @@ static double ac_residual_left(const ac_initial *a) {
         size[ac_i_row[e]] = ac_max(size[ac_i_row[e]], fabs(a->G[e]) * ac_nominal[ac_i_column[e]]);
     for (int i = 0; i < a->n_rows; i++) {
         const double left = fabs(a->r[i]) / (size[i] > 0.0 ? size[i] : 1.0);
-        if (!(left <= worst)) worst = left;
+        worst = ac_worse(worst, left);
     }
     return worst - worst == 0.0 ? worst : INFINITY;
 }

@@ -71,8 +71,7 @@ static double ac_error(const ac_problem *q, const ac_work *w, int n) {
     double worst = 0.0;
     for (int i = 0; i < n; i++) {
         const double scale = q->atol[i] + q->rtol * ac_max(fabs(w->z[i]), fabs(w->z1[i]));
-        const double e = fabs(w->k[7][i]) / scale;
-        if (!(e <= worst)) worst = e; /* keeps what is not a number */
+        worst = ac_worse(worst, fabs(w->k[7][i]) / scale);
     }
     return worst;
 }
