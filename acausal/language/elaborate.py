@@ -294,8 +294,7 @@ def _inner_components(component: Component) -> dict[str, Component]:
     for name, descriptor in type(component)._children.items():
         if isinstance(descriptor.default, Shared) and descriptor.default.role == "inner" and present(component, name):
             child = effective_child(component, name).component
-            found[name] = bare = _bare(type(child))
-            bare.__dict__["_mods"].update(_structure(child)[1:])
+            found[name] = record(type(child), dict(_structure(child)[1:]))
     return found
 
 
@@ -313,10 +312,7 @@ def _seeing(component: Component, shared: dict[str, Component]) -> Component:
             seen[name] = shared[name]
     if not seen:
         return component
-    copy = object.__new__(type(component))
-    copy.__dict__["_mods"] = {**component.__dict__["_mods"], **seen}
-    copy.__dict__["_path"] = component.__dict__["_path"]
-    return copy
+    return record(type(component), {**component.__dict__["_mods"], **seen}, component.__dict__["_path"])
 
 
 def _state_select(component: Component, declaration: Declaration) -> Any:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..errors import DeclarationError
 from ..language.flat_model import Family, FlatModel, canonical
 from ..language.template import Floats
 from ..lowering.parameters import ParameterProgram
@@ -32,16 +33,16 @@ def evaluate_parameters(flat: FlatModel) -> FlatModel:
             break
     values = ParameterProgram(flat).default[: flat.n_par]
     flat.evaluated_value = np.where(marked, values, np.nan)
-    known = flat.evaluated_value
-    flat.families = [part for f in flat.families for part in _with_numbers(f, known)]
-    flat.initial = [part for f in flat.initial for part in _with_numbers(f, known)]
-    flat.actions = [part for f in flat.actions for part in _with_numbers(f, known)]
-    flat.rules = [part for f in flat.rules for part in _with_numbers(f, known)]
+    flat.families = [part for f in flat.families for part in _with_numbers(flat, f)]
+    flat.initial = [part for f in flat.initial for part in _with_numbers(flat, f)]
+    flat.actions = [part for f in flat.actions for part in _with_numbers(flat, f)]
+    flat.rules = [part for f in flat.rules for part in _with_numbers(flat, f)]
     return flat
 
 
-def _with_numbers(family: Family, known: Floats) -> list[Family]:
+def _with_numbers(flat: FlatModel, family: Family) -> list[Family]:
     """The family in parts of equal numbers; rows with a parameter that has no value keep it."""
+    known: Floats = flat.evaluated_value
     inside = family.par_rows < len(known)
     numbers = np.where(inside, known[np.where(inside, family.par_rows, 0)], np.nan)
     columns = np.flatnonzero(~np.isnan(numbers).all(axis=0))
@@ -55,9 +56,24 @@ def _with_numbers(family: Family, known: Floats) -> list[Family]:
             par(int(c)): const(_rounded(float(v))) for c, v in zip(columns, pattern, strict=True) if not np.isnan(v)
         }
         part = family.select(rows)
-        form, variables, parameters = canonical(substitute(part.residual, mapping), part.var_rows, part.par_rows)
+        try:
+            residual = substitute(part.residual, mapping)
+        except ZeroDivisionError as error:
+            raise DeclarationError(_divided_text(flat, part)) from error
+        form, variables, parameters = canonical(residual, part.var_rows, part.par_rows)
         out.append(Family(form, variables, parameters, part.source, part.ordinal))
     return out
+
+
+def _divided_text(flat: FlatModel, family: Family) -> str:
+    """Which built-in values an equation divides by zero with."""
+    where, place = flat.equation_place(family, 0)
+    given = [int(k) for k in family.par_rows[0] if k < flat.n_par and flat.evaluated[k]]
+    values = ", ".join(f"{flat.parameter_name(k)} = {flat.evaluated_value[k]:g}" for k in given)
+    return (
+        f"with the values {values}, an equation of `{where or flat.model_name}` divides by zero (a direction has no "
+        f"length, or two that span a plane are parallel)    {place}"
+    )
 
 
 def _rounded(value: float) -> float:
