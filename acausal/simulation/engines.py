@@ -56,7 +56,7 @@ def simulate(system: Any, t1: Any, *, engine: str = "auto", **options: Any) -> S
         return simulate_events(system, t1, **options)
     from .simulate import simulate as with_diffrax
 
-    return with_diffrax(system, t1, engine="diffrax", **options)
+    return with_diffrax(system, t1, engine="diffrax", **_telling(system, options))
 
 
 def system_to_run(system: Any, options: Mapping[str, Any], engine: str) -> Any:
@@ -77,9 +77,42 @@ def system_to_run(system: Any, options: Mapping[str, Any], engine: str) -> Any:
         return system
     if engine != "diffrax" and why_not_native(located, options) is None:
         return located
-    # without the native engine derivatives are those of the solver's steps over conditions, as with events=False
-    numbers = is_concrete([v for v in options.values() if not isinstance(v, str)])
-    return located if numbers or system.hybrid is not None else system
+    # a compiled program of JAX cannot leave itself for an event: there a solver steps over conditions
+    return located if system.hybrid is not None or _known(options) else system
+
+
+def _known(options: Mapping[str, Any]) -> bool:
+    """Whether the numbers of a run are known, though derivatives may be being taken with diffrax."""
+    given = [v for v in options.values() if not isinstance(v, str)]
+    if is_concrete(given):
+        return True
+    from .jit import values_are_known
+
+    return options.get("adjoint") is None and values_are_known(given)
+
+
+def _telling(system: Any, options: dict[str, Any]) -> dict[str, Any]:
+    """The options; if derivatives are taken, it is said once that they leave out what happens at conditions."""
+    located = system.located
+    given = [v for v in options.values() if not isinstance(v, str)]
+    if options.get("events", True) is not True or located.hybrid is None or is_concrete(given):
+        return options
+    from .jit import told_when_differentiated
+
+    def tell() -> None:
+        if not system.cache.setdefault("told", set()):
+            system.cache["told"].add("derivatives")
+            hybrid = located.hybrid
+            conditions = "\n".join(f"    {hybrid.text(s)}" for s in hybrid.roots.slots[:3].tolist())
+            warnings.warn(
+                f"These derivatives are those of a run of `{system.name}` that steps over its conditions, as a program "
+                "that JAX compiles has to on the diffrax engine. They are right where the equations are continuous "
+                f"over a condition, and leave out the jump where they are not:\n{conditions}\nTake the native engine, "
+                "leave out jax.jit and jax.vmap, or say events=False to accept it.",
+                stacklevel=2,
+            )
+
+    return {k: told_when_differentiated(v, tell) for k, v in options.items()}
 
 
 def why_not_native(system: Any, options: Mapping[str, Any]) -> str | None:
@@ -145,9 +178,11 @@ def _native(
     signals = all_signals(system, inputs)
     arguments = (t0, t1, saveat, rtol, atol, dt, dict(parameters or {}), dict(initial or {}), signals)
     if not is_concrete(arguments):
-        from .native_jax import simulate_traced
+        from .traced import Way, simulate_traced
 
-        return simulate_traced(model, *arguments, inputs=inputs, max_steps=max_steps, throw=throw)
+        arguments = (t0, t1, saveat, *_scaled(system, rtol, atol), *arguments[5:])
+        way = Way(_NAMES[solver], "native", direct=False)
+        return simulate_traced(model, way, *arguments, inputs=inputs, max_steps=max_steps, throw=throw)
     t0, t1 = float(t0), float(t1)
     given = Given(parameters or {}, initial or {}, [(np.asarray(t, float), np.asarray(v, float)) for t, v in signals])
     save = output_times(saveat, t0, t1)
@@ -186,13 +221,18 @@ def output_times(saveat: Any, t0: float, t1: float) -> Floats:
 
 def tolerances(system: Any, rtol: Any, atol: Any, dt: Any, max_steps: int) -> Tolerances:
     """Tolerances of each unknown: as in the diffrax engine."""
+    return Tolerances(*_scaled(system, float(rtol), atol, np), 0.0 if dt is None else float(dt), max_steps)
+
+
+def _scaled(system: Any, rtol: Any, atol: Any, xp: Any = None) -> tuple[Any, Any]:
+    """Relative and absolute tolerances, the latter of each unknown; with JAX where no other module is given."""
+    if xp is None:
+        import jax.numpy as xp
     low = system.lowered
     safety = INVARIANT_SAFETY if low.n_g else 1.0
-    rtol = float(rtol)
-    given = np.asarray(ATOL * rtol if atol is None else atol, float)
-    relative = np.broadcast_to(given, (low.n_x,))
-    scale = np.concatenate([relative * low.x_nominal, given.min() * low.w_nominal])
-    return Tolerances(safety * rtol, safety * scale, 0.0 if dt is None else float(dt), max_steps)
+    given = xp.asarray(ATOL * rtol if atol is None else atol, float)
+    relative = xp.broadcast_to(given, (low.n_x,))
+    return safety * rtol, safety * xp.concatenate([relative * low.x_nominal, given.min() * low.w_nominal])
 
 
 def all_signals(system: Any, inputs: Mapping[str, Any] | None) -> list[tuple[Any, Any]]:

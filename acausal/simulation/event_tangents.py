@@ -42,7 +42,7 @@ class EventTangents:
         """Derivatives behind the start, from those of the consistent start: (n_z, k) and (n_p, k)."""
         dx, dp = self._through(moves, dz[: self.low.n_x], dp.copy(), np.zeros(dz.shape[1]))
         last = moves[-1]
-        return self._with_algebraic(last.t, last.z_after, last.p, dx, dp, np.zeros(dz.shape[1])), dp
+        return self.with_algebraic(last.t, last.z_after, last.p, dx, dp, np.zeros(dz.shape[1])), dp
 
     def event(
         self, moves: list[Move], p_after: Floats, dz: Floats, dp: Floats, roots: Any, samples: list[int]
@@ -52,7 +52,7 @@ class EventTangents:
         k = dz.shape[1]
         fed = self._inputs()
         rate = self._rate(first.t, first.z, first.p)
-        dz = self._with_algebraic(first.t, first.z, first.p, dz[: low.n_x], dp, np.zeros(k))
+        dz = self.with_algebraic(first.t, first.z, first.p, dz[: low.n_x], dp, np.zeros(k))
         both = np.concatenate([dz, rate[:, None]], axis=1)
         p_both = np.concatenate([dp, np.zeros((len(dp), 1))], axis=1)
         p_both[fed, k] = self.rates(first.t)
@@ -66,7 +66,7 @@ class EventTangents:
         moved[fed] = dp[fed]
         last = moves[-1]
         dx = dx - np.outer(self._rate(last.t, last.z_after, p_after)[: low.n_x], tau)
-        return self._with_algebraic(last.t, last.z_after, p_after, dx, moved, np.zeros(k)), moved
+        return self.with_algebraic(last.t, last.z_after, p_after, dx, moved, np.zeros(k)), moved
 
     def _groups(self, purpose: str) -> list[int]:
         """Groups of the schedule that are needed for what switches, for what events change, or for the residuals."""
@@ -115,9 +115,9 @@ class EventTangents:
         dx = self.iteration.equations.values(t, z, p)[low.dx_ids]
         dp = np.zeros((len(p), 1))
         dp[self._inputs(), 0] = self.rates(t)
-        return self._with_algebraic(t, z, p, dx[:, None], dp, np.ones(1))[:, 0]
+        return self.with_algebraic(t, z, p, dx[:, None], dp, np.ones(1))[:, 0]
 
-    def _with_algebraic(self, t: float, z: Floats, p: Floats, dx: Floats, dp: Floats, dt: Floats) -> Floats:
+    def with_algebraic(self, t: float, z: Floats, p: Floats, dx: Floats, dp: Floats, dt: Floats) -> Floats:
         """Derivatives of z from those of the states, by the implicit-function theorem."""
         low = self.low
         if not low.n_w:
@@ -139,7 +139,7 @@ class EventTangents:
         """Total derivatives of states and parameters through the turns of an event."""
         low = self.low
         for move in moves:
-            dz = self._with_algebraic(move.t, move.z, move.p, dx, dp, tau)
+            dz = self.with_algebraic(move.t, move.z, move.p, dx, dp, tau)
             x, w = move.z[: low.n_x], move.z[low.n_x :]
             run = NumericRun(low, move.t, x, w, move.p, np.arange(low.n_x), dz, dp, tau, self._groups("changes"))
             dx = self._reinitialized(move, run, dz, dp, tau)

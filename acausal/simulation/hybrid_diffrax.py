@@ -5,12 +5,14 @@ Events themselves are carried out with NumPy, as on the native engine.
 
 from __future__ import annotations
 
+import functools
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import diffrax
+import jax
 import jax.numpy as jnp
 import numpy as np
 import optimistix as optx
@@ -24,15 +26,20 @@ from . import simulate as plain
 from .conditions import sides
 from .controller import ROUNDING
 from .engines import all_signals, output_times
-from .event_iteration import EventIteration
+from .event_iteration import Equations, EventIteration
+from .event_tangents import EventTangents
 from .failure import explain
-from .hybrid_run import EVENT, run_hybrid, warn
+from .hybrid_run import EVENT, HybridRun, Integrate, run_hybrid, warn
 from .hybrid_static import Stretch, static_integrate
+from .hybrid_tangents import Differentiated, run_with_tangents
 from .inputs import DrivenLowered, drive
 from .native_library import RESULTS, Floats
 from .rodas5p import Rodas5P
 from .solution import Solution
+from .start_tangents import StartTangents
+from .started import Given, Seed, Started, Tolerances, given_mask
 from .switch import Switch
+from .traced import Way, simulate_traced
 
 SLACK = 1e-12
 TIME = 1e-14
@@ -79,80 +86,136 @@ class NumericEquations:
         return NumericRun(low, t, z[: low.n_x], z[low.n_x :], p, np.zeros(0, np.int64), none).value
 
 
-def simulate_events(
-    system: Any, t1: Any, *, t0: Any = 0.0, parameters: Mapping[str, Any] | None = None,
-    initial: Mapping[str, Any] | None = None, inputs: Mapping[str, Any] | None = None, saveat: Any = None,
-    rtol: Any = 1e-6, atol: Any = None, solver: Any = None, max_steps: int | None = None, throw: bool = True,
-    dt: Any = None, stepsize_controller: Any = None, **rest: Any,
-) -> Solution:  # fmt: skip
-    """As `acausal.simulation.simulate.simulate`, for a system with events; values are numbers."""
-    given = (t0, t1, dict(parameters or {}), dict(initial or {}), rtol, atol)
-    if not is_concrete(given):
-        raise SimulationError(
-            "The diffrax engine does not differentiate runs with events; the native engine does (engine='native'; it "
-            "needs a C compiler), and events=False switches events off where the model has conditions only."
+@dataclass(frozen=True, slots=True, eq=False)
+class _How:
+    """How the stretches of a run are solved: what may not be traced."""
+
+    method: Any
+    controller: Any
+    has_dt: bool
+    max_steps: int
+
+
+@dataclass(eq=False)
+class DiffraxModel:
+    """A system with events, as `acausal.simulation.native.NativeModel`, for runs of one kind.
+
+    Attributes:
+        system: the system.
+        functions: inputs that are functions of time, by name.
+        tables: names of the inputs that are tables.
+        how: method and controller.
+        compile_seconds: what compiling has taken.
+    """
+
+    system: Any
+    functions: Mapping[str, Any]
+    tables: tuple[str, ...]
+    how: _How
+    compile_seconds: float = 0.0
+
+    def driven(self, given: Given) -> tuple[Any, Any]:
+        """The lowered system whose inputs follow time, and their numbers."""
+        names = tuple(self.system.input_names)
+        moving = {name: given.signals[names.index(name)] for name in self.tables} | dict(self.functions)
+        return drive(self.system, moving) if moving else (self.system.lowered, None)
+
+    def start(self, t0: float, given: Given, check: bool) -> Started:
+        """A consistent start, and the iteration of events.
+
+        Raises:
+            InitializationError, DeclarationError: as `System.check_initial`.
+        """
+        system = self.system
+        low, program = system.lowered, system.program
+        p = program.base.copy()
+        mask = given_mask(system, given.parameters, p)
+        for k, (times, values) in enumerate(given.signals):
+            p[program.flat.n_par + k] = np.interp(t0, times, values)
+        p = program.completed(p, mask.astype(bool))
+        equations = NumericEquations(system, *self.driven(given))
+        iteration = EventIteration(system.hybrid, system.initial, equations, warn)
+        equations.feed(t0, p)
+        starts, overrides = program.starts(p, np), system._overrides(given.initial, np)
+
+        def solve(p: Floats) -> tuple[Floats, Floats]:
+            found = solve_numeric(system.initial, t0, p, starts, overrides)
+            if found is None:
+                raise InitializationError("the start of this model is too large for a run with events")
+            return np.concatenate(found[:2]), found[2]
+
+        outcome, left = iteration.start(t0, p, starts, solve)
+        if check:
+            system.check_initial(outcome.z[: low.n_x], outcome.z[low.n_x :], outcome.p, left, t0)
+        return Started(outcome.z, outcome.p, left, mask, iteration, outcome, iteration.moves)
+
+    def run(
+        self, t0: float, t1: float, save: Floats, given: Given, how: Tolerances, check: bool = True
+    ) -> tuple[Started, HybridRun]:
+        """Start and integrate."""
+        started = self.start(t0, given, check)
+        assert started.iteration is not None and started.outcome is not None
+        stretches = self._stretches(started.iteration, save, given, how)
+        integrate = stretches.integrate if self.system.lowered.n_x else stretches.static()
+        run = run_hybrid(
+            started.iteration, started.outcome, t0, t1, save, integrate, first_step=0.0, max_steps=self.how.max_steps
         )
-    if rest.get("adjoint") is not None:
-        raise SimulationError("`adjoint=` has no meaning in a run with events.")
-    hybrid: Hybrid = system.hybrid
-    t0, t1 = float(t0), float(t1)
-    begin = time.perf_counter()
-    low = system.lowered
-    lowered, numbers = drive(system, inputs) if inputs else (low, ())
-    all_signals(system, {k: v for k, v in (inputs or {}).items() if not callable(v)})
-    equations = NumericEquations(system, lowered, numbers)
-    iteration = EventIteration(hybrid, system.initial, equations, warn)
-    p = system.program.evaluate(parameters or {}, np)
-    equations.feed(t0, p)
-    starts, overrides = system.program.starts(p, np), system._overrides(initial, np)
+        return started, run
 
-    def solve(p: Floats) -> tuple[Floats, Floats]:
-        found = solve_numeric(system.initial, t0, p, starts, overrides)
-        if found is None:
-            raise InitializationError("the start of this model is too large for a run with events")
-        return np.concatenate(found[:2]), found[2]
+    def sensitivities(
+        self, t0: float, t1: float, save: Floats, given: Given, how: Tolerances, seeds: Sequence[Seed],
+        check: bool = True,
+    ) -> tuple[Started, HybridRun, Floats, Floats]:  # fmt: skip
+        """As `run`, with derivatives along `seeds`: of z and the slots (n_t, n + n_slots, k), of the parameters."""
+        started = self.start(t0, given, check)
+        assert started.iteration is not None
+        stretches = self._stretches(started.iteration, save, given, how)
+        run, dz, dp = run_with_tangents(
+            started, t0, t1, save, given, StartTangents(self.system, None, len(seeds)), seeds, stretches.rates,
+            stretches.differentiated(), first_step=0.0, max_steps=self.how.max_steps,
+        )  # fmt: skip
+        return started, run, dz, dp
 
-    outcome, left = iteration.start(t0, p, starts, solve)
-    if throw:
-        system.check_initial(outcome.z[: low.n_x], outcome.z[low.n_x :], outcome.p, left, t0)
-    save = output_times(saveat, t0, t1)
-    method = plain.with_linear_solver(plain.chosen_solver(solver), lowered)
-    together = isinstance(method, Rodas5P)
-    relative = jnp.asarray(rtol, float)
-    absolute = jnp.broadcast_to(plain.ATOL * relative if atol is None else jnp.asarray(atol, float), (low.n_x,))
-    compile_seconds = [0.0]
-    most = plain.MAX_STEPS if max_steps is None else max_steps
+    def _stretches(self, iteration: EventIteration, save: Floats, given: Given, how: Tolerances) -> _Stretches:
+        lowered, numbers = self.driven(given)
+        return _Stretches(self, lowered, numbers, iteration, save, how)
+
+
+@dataclass(eq=False)
+class _Stretches:
+    """The stretches of one run."""
+
+    model: DiffraxModel
+    lowered: Any
+    numbers: Any
+    iteration: EventIteration
+    save: Floats
+    tolerances: Tolerances
 
     def integrate(
-        t: float, stop: float, z: Floats, p: Floats, remaining: Floats, step: float, end_open: bool, steps: int
+        self, t: float, stop: float, z: Floats, p: Floats, remaining: Floats, step: float, end_open: bool, steps: int
     ) -> Stretch:
+        """To the first event or to `stop`; as `acausal.simulation.hybrid_run.Integrate`."""
         if stop - t <= ROUNDING * abs(t):  # between an event and the end there is no room for a step
             n = 0 if end_open else int((remaining <= stop).sum())
             return Stretch(np.tile(z, (n, 1)), 0, n, max(t, stop), z, step, None, {})
-        times = np.full(len(save), stop)
-        times[: len(remaining)] = np.clip(remaining, t, stop)
-        slack, shortest = _slack(iteration, equations, t, z, p), jnp.asarray(NARROWEST * (stop - t))
-        switch = Switch(jnp.asarray(slack), shortest, lowered, hybrid.roots, together, low.n_x)
+        hybrid, equations, n_x = self.iteration.hybrid, self.iteration.equations, self.lowered.n_x
+        slack, shortest = _slack(self.iteration, equations, t, z, p), jnp.asarray(NARROWEST * (stop - t))
+        together = isinstance(self.model.how.method, Rodas5P)
+        switch = Switch(jnp.asarray(slack), shortest, self.lowered, hybrid.roots, together, n_x)
         finder = optx.Bisection(rtol=TIME, atol=TIME, flip=True)  # what switches by rounding is at an end of the step
         event = diffrax.Event(switch, finder) if hybrid.roots.count else None
-        settings = plain.settings_of(
-            method, ("times",), controller=stepsize_controller, has_dt=dt is not None, event=event, max_steps=most
+        outcome, seconds, _ = plain.carry_out(
+            self.lowered, self._settings(event), self._arguments(t, stop, z, p, remaining)
         )
-        vector = jnp.asarray(p)
-        arguments = (
-            jnp.asarray(t), jnp.asarray(stop), jnp.asarray(z[: low.n_x]), jnp.asarray(z[low.n_x :]),
-            (vector, numbers) if inputs else vector, relative, absolute, jnp.asarray(times),
-            jnp.asarray(0.0 if dt is None else dt, float),
-        )  # fmt: skip
-        (_, x, w, counts, code, last), seconds, _ = plain.carry_out(lowered, settings, arguments)
-        compile_seconds[0] += seconds
+        self.model.compile_seconds += seconds
+        _, x, w, counts, code, last = outcome
         name = plain.result_name(int(code))
         t_end = float(last[0])
         z_end = np.concatenate([np.asarray(last[1]), np.asarray(last[2])])
         happened = name == "event_occurred"
         until = t_end - SAME * abs(t_end) if happened else t_end
-        before = remaining < until if happened or end_open else remaining <= until
-        n = int(before.sum())
+        n = int((remaining < until if happened or end_open else remaining <= until).sum())
         found = np.concatenate([np.asarray(x), np.asarray(w)], axis=1)[:n]
         named = {k: int(c) for k, c in zip(("steps", "accepted", "rejected"), counts, strict=True)}
         if sum(named.values()) and steps < named["steps"]:
@@ -161,31 +224,141 @@ def simulate_events(
         roots = _switched(hybrid, equations, t_end, z_end, p, slack) if happened else None
         return Stretch(found, result, n, t_end, z_end, 0.0, roots, named)
 
-    stretch = integrate if low.n_x else static_integrate(hybrid, equations, np.asarray(low.w_nominal, float))
-    run = run_hybrid(iteration, outcome, t0, t1, save, stretch, first_step=0.0, max_steps=most)
-    result = RESULTS[run.code] if run.code else "successful" if run.ended is None else f"terminated: {run.ended}"
-    stats = {k: run.counts[k] for k in ("steps", "accepted", "rejected")}
+    def static(self) -> Integrate:
+        """The same for a model without states."""
+        nominal = np.asarray(self.lowered.w_nominal, float)
+        return static_integrate(self.iteration.hybrid, self.iteration.equations, nominal)
+
+    def differentiated(self) -> Differentiated:
+        """Stretches with their derivatives."""
+        if self.lowered.n_x:
+            return lambda *arguments: self._with_slopes(self.integrate(*arguments[:-2]), *arguments)
+        tangents, static = EventTangents(self.iteration, self.rates), self.static()
+
+        def at(t: float, z: Floats, p: Floats, dp: Floats) -> Floats:
+            p = p.copy()
+            self.iteration.equations.feed(t, p)
+            k = dp.shape[1]
+            return tangents.with_algebraic(t, z, p, np.zeros((0, k)), dp, np.zeros(k))
+
+        def integrate(t: float, stop: float, z: Floats, p: Floats, remaining: Floats, *rest: Any) -> Any:
+            dz, dp = rest[-2:]
+            run = static(t, stop, z, p, remaining, *rest[:-2])
+            rows = [at(float(at_t), z, p, dp) for at_t, z in zip(remaining, run.z, strict=False)]
+            return run, np.array(rows).reshape((run.saved, *dz.shape)), at(run.t_end, run.z_end, p, dp)
+
+        return integrate
+
+    def rates(self, t: float) -> Floats:
+        """Rates of the inputs."""
+        out = np.zeros(len(self.model.system.input_names))
+        if isinstance(self.lowered, DrivenLowered):
+            values = functools.partial(self.lowered.values, data=self.numbers)
+            moving = jax.jvp(lambda t: jnp.stack(values(t)), (jnp.asarray(t),), (jnp.ones(()),))[1]
+            held = self.iteration.hybrid.flat.slots.count
+            out[self.lowered.places + held] = np.asarray(moving)
+        return out
+
+    def _settings(self, event: Any) -> Any:
+        how = self.model.how
+        return plain.settings_of(
+            how.method, ("times",), controller=how.controller, has_dt=how.has_dt, event=event, max_steps=how.max_steps
+        )
+
+    def _arguments(self, t: float, stop: float, z: Floats, p: Floats, remaining: Floats) -> tuple[Any, ...]:
+        """Arguments of the solve; its output times are as many in every stretch."""
+        n_x, tolerances = self.lowered.n_x, self.tolerances
+        times = np.full(len(self.save), stop)
+        times[: len(remaining)] = np.clip(remaining, t, stop)
+        vector = jnp.asarray(p)
+        return (
+            jnp.asarray(t), jnp.asarray(stop), jnp.asarray(z[:n_x]), jnp.asarray(z[n_x:]),
+            (vector, self.numbers) if isinstance(self.lowered, DrivenLowered) else vector,
+            jnp.asarray(tolerances.rtol), jnp.asarray(tolerances.atol), jnp.asarray(times),
+            jnp.asarray(tolerances.first_step),
+        )  # fmt: skip
+
+    def _with_slopes(
+        self, run: Stretch, t: float, stop: float, z: Floats, p: Floats, remaining: Floats, *rest: Any
+    ) -> tuple[Stretch, Floats, Floats]:
+        """A stretch that has been solved, with derivatives: it is solved again, up to its end, with them."""
+        dz, dp = rest[-2:]
+        n_x = self.lowered.n_x
+        if not run.counts or run.t_end - t <= ROUNDING * abs(t):
+            return run, np.tile(dz, (run.saved, 1, 1)), dz
+        directions = jnp.asarray(dz[:n_x]), jnp.asarray(dz[n_x:]), jnp.asarray(dp)
+        outcome, seconds = plain.carry_out_slopes(
+            self.lowered, self._settings(None), self._arguments(t, run.t_end, z, p, remaining), directions
+        )
+        self.model.compile_seconds += seconds
+        x, w, x_end, w_end = (np.asarray(a) for a in outcome)
+        return run, np.concatenate([x, w], axis=1)[: run.saved], np.concatenate([x_end, w_end])
+
+
+def simulate_events(
+    system: Any, t1: Any, *, t0: Any = 0.0, parameters: Mapping[str, Any] | None = None,
+    initial: Mapping[str, Any] | None = None, inputs: Mapping[str, Any] | None = None, saveat: Any = None,
+    rtol: Any = 1e-6, atol: Any = None, solver: Any = None, max_steps: int | None = None, throw: bool = True,
+    dt: Any = None, stepsize_controller: Any = None, **rest: Any,
+) -> Solution:  # fmt: skip
+    """As `acausal.simulation.simulate.simulate`, for a system with events; values are numbers, or differentiated."""
+    if rest.get("adjoint") is not None:
+        raise SimulationError("`adjoint=` has no meaning in a run with events.")
+    functions = {k: v for k, v in (inputs or {}).items() if callable(v)}
+    signals = all_signals(system, {k: v for k, v in (inputs or {}).items() if k not in functions})
+    tables = tuple(k for k, (t, _) in zip(system.input_names, signals, strict=True) if np.shape(t)[0] > 1)
+    low = system.lowered
+    method = plain.with_linear_solver(plain.chosen_solver(solver), low)
+    most = plain.MAX_STEPS if max_steps is None else max_steps
+    model = DiffraxModel(system, functions, tables, _How(method, stepsize_controller, dt is not None, most))
+    name = type(method).__name__
+    relative = jnp.asarray(rtol, float)
+    absolute = jnp.broadcast_to(plain.ATOL * relative if atol is None else jnp.asarray(atol, float), (low.n_x,))
+    step = 0.0 if dt is None else dt
+    if not is_concrete((t0, t1, parameters, initial, relative, absolute, signals)):
+        return simulate_traced(
+            model, Way(name, "diffrax", direct=True), t0, t1, saveat, relative, absolute, step, dict(parameters or {}),
+            dict(initial or {}), signals, inputs=inputs, max_steps=most, throw=throw,
+        )  # fmt: skip
+    t0, t1 = float(t0), float(t1)
+    begin = time.perf_counter()
+    given = Given(parameters or {}, initial or {}, [(np.asarray(t, float), np.asarray(v, float)) for t, v in signals])
+    how = Tolerances(float(relative), np.asarray(absolute), float(step), most)
+    started, run = model.run(t0, t1, output_times(saveat, t0, t1), given, how, check=throw)
     seconds = time.perf_counter() - begin
-    stats |= {"compile_seconds": compile_seconds[0], "run_seconds": seconds - compile_seconds[0]}
-    stats |= {"solver": type(method).__name__, "t_end": run.t_end}
+    return _finished(model, given, started, run, name, seconds, t1, throw)
+
+
+def _finished(
+    model: DiffraxModel, given: Given, started: Started, run: HybridRun, method: str, seconds: float, t1: float,
+    throw: bool,
+) -> Solution:  # fmt: skip
+    """The solution of a run with numbers; raises where it failed."""
+    system, n_x = model.system, model.system.lowered.n_x
+    result = RESULTS[run.code] if run.code else "successful" if run.ended is None else f"terminated: {run.ended}"
+    stats: dict[str, Any] = {k: run.counts[k] for k in ("steps", "accepted", "rejected")}
+    stats |= {"compile_seconds": model.compile_seconds, "run_seconds": seconds - model.compile_seconds}
+    stats |= {"solver": method, "t_end": run.t_end}
+    lowered, numbers = model.driven(given)
     vector: Any = jnp.asarray(run.p_end)
-    vector = (vector, numbers) if inputs else vector
+    vector = (vector, numbers) if isinstance(lowered, DrivenLowered) else vector
     solution = Solution(
-        system, run.save, run.z[:, : low.n_x], run.z[:, low.n_x :], vector, stats=stats, result=result,
+        system, run.save, run.z[:, :n_x], run.z[:, n_x:], vector, stats=stats, result=result,
         events=tuple(run.events), lowered=lowered, slots=run.slots,
     )  # fmt: skip
     if throw and run.code:
-        last = run.t_end, run.z_end[: low.n_x], run.z_end[low.n_x :]
-        raise SimulationError(explain(system, lowered, result, stats, last, solution.p, t1, most))
+        last = run.t_end, run.z_end[:n_x], run.z_end[n_x:]
+        text = explain(system, lowered, result, stats, last, solution.p, t1, model.how.max_steps)
+        raise SimulationError(text)
     return solution
 
 
-def _slack(iteration: EventIteration, equations: NumericEquations, t: float, z: Floats, p: Floats) -> Floats:
+def _slack(iteration: EventIteration, equations: Equations, t: float, z: Floats, p: Floats) -> Floats:
     side = -sides(iteration.hybrid, equations, t, z, p)
     return np.where(side <= iteration.noise, 10.0 * np.abs(side) + iteration.noise + TINY, 0.0)
 
 
-def _switched(hybrid: Hybrid, equations: NumericEquations, t: float, z: Floats, p: Floats, slack: Floats) -> Any:
+def _switched(hybrid: Hybrid, equations: Equations, t: float, z: Floats, p: Floats, slack: Floats) -> Any:
     """The conditions that switch at a root: the nearest to its switch, and what is already behind.
 
     What has rested at its switch since the start of the stretch (it has `slack`) is no nearer to it than it was: it

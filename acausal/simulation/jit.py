@@ -116,6 +116,41 @@ def is_traced(tree: Any) -> bool:
     return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(tree))
 
 
+def values_are_known(tree: Any) -> bool:
+    """Whether the numbers in a pytree are known now: they may be differentiated, but not compiled or batched."""
+    known: list[bool] = []
+
+    @jax.custom_jvp
+    def look(value: Any) -> Any:
+        known.append(not isinstance(value, Tracer))
+        return value
+
+    @look.defjvp
+    def _(primals: Any, tangents: Any) -> Any:
+        known.append(not isinstance(primals[0], Tracer))
+        return primals[0], tangents[0]
+
+    for leaf in jax.tree.leaves(tree):
+        if isinstance(leaf, Tracer):
+            look(leaf)
+    return all(known) and not inside_jit()
+
+
+def told_when_differentiated(tree: Any, tell: Callable[[], None]) -> Any:
+    """The pytree; `tell` is called when derivatives with respect to its numbers are taken."""
+
+    @jax.custom_jvp
+    def same(value: Any) -> Any:
+        return value
+
+    @same.defjvp
+    def _(primals: Any, tangents: Any) -> Any:
+        tell()
+        return primals[0], tangents[0]
+
+    return jax.tree.map(lambda leaf: same(leaf) if isinstance(leaf, Tracer) else leaf, tree)
+
+
 def compiled_for(owner: Any, key: Any, run: Any, arguments: tuple[Any, ...]) -> tuple[Any, float]:
     """The executable of a jitted function for the shapes of the arguments, kept with `owner`.
 

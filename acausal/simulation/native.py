@@ -1,6 +1,6 @@
 """The native engine: a whole run in compiled C, from the given values to the trajectories and their sensitivities.
 
-Nothing here needs JAX; `native_jax` wraps it for JAX's transformations.
+Nothing here needs JAX; `traced` wraps it for JAX's transformations.
 """
 
 from __future__ import annotations

@@ -190,6 +190,23 @@ def carry_out(
     ) from failure
 
 
+def carry_out_slopes(
+    lowered: Lowered, settings: _Settings, arguments: tuple[Any, ...], directions: tuple[Array, Array, Array]
+) -> tuple[tuple[Any, ...], float]:
+    """Derivatives of a solve at its output times and its end, and the seconds of compiling.
+
+    Args:
+        lowered, settings, arguments: of the solve, as for `carry_out`.
+        directions: tangents of x0 (n_x, k), w0 (n_w, k) and the parameter vector (n_p, k).
+
+    Returns:
+        Tangents of x (n_t, n_x, k) and w (n_t, n_w, k) at the output times, and of both at the end.
+    """
+    run, dynamic, key = _program(lowered, settings, _slopes)
+    compiled, seconds = compiled_for(lowered, key, run, (dynamic, directions, *arguments))
+    return jax.block_until_ready(compiled(dynamic, directions, *arguments)), seconds
+
+
 class _Settings(eqx.Module):
     """What a compiled solve is made for; arrays in it are arguments of the program, the rest is its key."""
 
@@ -232,15 +249,16 @@ def _output(saveat: Any, t0: Any, t1: Any) -> tuple[Any, Any]:
     return jnp.asarray(saveat, float), ("times",)
 
 
-def _program(lowered: Lowered, settings: _Settings) -> tuple[Callable[..., Any], Any, Any]:
-    """The jitted solve for these settings, the arrays in them, and the key of the program."""
+def _program(lowered: Lowered, settings: _Settings, solve: Any = None) -> tuple[Callable[..., Any], Any, Any]:
+    """The jitted solve (or its `_slopes`) for these settings, the arrays in them, and the key of the program."""
+    solve = _solve if solve is None else solve
     dynamic, static = eqx.partition(settings, eqx.is_array)
     leaves, structure = jax.tree.flatten(static)
     shapes = tuple((a.shape, str(a.dtype)) for a in jax.tree.leaves(dynamic))
-    key = ("solve", structure, tuple(leaves), shapes)
+    key = (solve.__name__, structure, tuple(leaves), shapes)
     cache = cache_of(lowered)
     if key not in cache:
-        cache[key] = jax.jit(functools.partial(_solve, lowered, static))
+        cache[key] = jax.jit(functools.partial(solve, lowered, static))
     return cache[key], dynamic, key
 
 
@@ -305,6 +323,24 @@ def _solve(
         last = (t_last, y_last, w[-1] if n_w else w0)
     counts = [solved.stats[f"num_{k}"] for k in ("steps", "accepted_steps", "rejected_steps")]
     return t, x, w, counts, _code(solved.result), last, solved.solver_state if keep else None
+
+
+def _slopes(
+    lowered: Lowered, static: _Settings, dynamic: _Settings, directions: Any, *arguments: Any
+) -> tuple[Any, ...]:
+    """Directional derivatives of the solve, see `carry_out_slopes`."""
+    t0, t1, x0, w0, p, *rest = arguments
+    vector, *numbers = p if isinstance(p, tuple) else (p,)
+
+    def solve(x0: Array, w0: Array, vector: Array) -> tuple[Any, ...]:
+        given: Any = (vector, *numbers) if numbers else vector
+        _, x, w, _, _, (_, x_end, w_end), _ = _solve(lowered, static, dynamic, t0, t1, x0, w0, given, *rest)
+        return x, w, x_end, w_end
+
+    def along(*direction: Array) -> tuple[Any, ...]:
+        return jax.jvp(solve, (x0, w0, vector), direction)[1]
+
+    return jax.vmap(along, in_axes=-1, out_axes=-1)(*directions)
 
 
 def _without_states(

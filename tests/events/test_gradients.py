@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -13,7 +14,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import acausal as ac
-from acausal import Component, Discrete, Equations, Parameter, Variable, der, pre, reinit, sample, when, where
+from acausal import Component, Discrete, Equations, Input, Parameter, Variable, der, pre, reinit, sample, when, where
 
 from .benchmarks import BouncingBall, FullWave, StickSlip
 from .constrained import Wall
@@ -89,7 +90,7 @@ CASES = {
 }  # fmt: skip
 
 
-def values_of(case: Case) -> Callable[[jax.Array], jax.Array]:
+def values_of(case: Case, engine: Any = "native") -> Callable[[jax.Array], jax.Array]:
     """Values of what is seen half way and at the end, as a function of all parameters and start values."""
     system = ac.compile(case.model())
     n = len(case.parameters)
@@ -98,7 +99,7 @@ def values_of(case: Case) -> Callable[[jax.Array], jax.Array]:
         parameters = dict(zip(case.parameters, x[:n], strict=True))
         initial = dict(zip(case.initial, x[n:], strict=True))
         solution = system.simulate(
-            case.t1, parameters=parameters, initial=initial, engine="native", rtol=1e-11,
+            case.t1, parameters=parameters, initial=initial, engine=engine, rtol=1e-11,
             saveat=np.array([0.55 * case.t1, case.t1]),
         )  # fmt: skip
         return jnp.concatenate([jnp.asarray(solution[name]) for name in case.seen])
@@ -117,6 +118,14 @@ def test_derivatives_through_events(name: str) -> None:
         step = 1e-5 * max(abs(float(x[k])), 0.1)
         difference = (values(x.at[k].add(step)) - values(x.at[k].add(-step))) / (2 * step)
         assert_allclose(found[:, k], difference, rtol=2e-5, atol=2e-6 * max(1.0, np.abs(difference).max()))
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_both_engines_have_the_same_derivatives(name: str) -> None:
+    case = CASES[name]
+    x = jnp.array([*case.parameters.values(), *case.initial.values()])
+    native, diffrax = (np.asarray(jax.jacfwd(values_of(case, engine))(x)) for engine in ("native", "diffrax"))
+    assert_allclose(diffrax, native, rtol=1e-5, atol=1e-6 * np.abs(native).max())
 
 
 def test_forward_and_reverse_agree() -> None:
@@ -161,7 +170,97 @@ def test_the_end_of_a_run_that_ends_itself() -> None:
     assert_allclose(jax.grad(last)(2.0), 2 * 2.0 * 0.25, rtol=1e-9)
 
 
-def test_the_diffrax_engine_says_who_does() -> None:
+class Jump(Component):
+    """A rate that jumps at a threshold: ``x(t1) = a + r (t1 - a / k)``, with a table and a number as inputs."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    k: Parameter = Parameter(1.5)
+    a: Input = Input(start=1.0)
+    r: Input = Input(start=3.0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == where(self.x < self.a, self.k, self.r)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_a_rate_that_jumps_in_closed_form(engine: Any) -> None:
+    system = ac.compile(Jump())
+
+    def end(k: Any, r: Any) -> Any:
+        inputs = {"a": (np.array([0.0, 2.0]), np.array([0.5, 1.5])), "r": r}
+        run = system.simulate(2.0, parameters={"k": k}, inputs=inputs, engine=engine, rtol=1e-9, saveat=2)
+        return jnp.asarray(run["x"])[-1]
+
+    # x = k t meets a = (1 + t) / 2 at t = 1 / (2 k - 1)
+    def exact(k: Any, r: Any) -> Any:
+        t = 1.0 / (2.0 * k - 1.0)
+        return k * t + r * (2.0 - t)
+
+    assert_allclose(jax.grad(end, argnums=(0, 1))(1.5, 3.0), jax.grad(exact, argnums=(0, 1))(1.5, 3.0), rtol=1e-8)
+
+
+def test_a_function_of_time_as_an_input() -> None:
+    """The threshold ``1 + sin t / 2`` is met at ``k t = 1 + sin t / 2``."""
+    system = ac.compile(Jump())
+
+    def end(k: Any) -> Any:
+        run = system.simulate(
+            2.0, parameters={"k": k}, inputs={"a": lambda t: 1.0 + 0.5 * jnp.sin(t)}, rtol=1e-10, saveat=2,
+            engine="diffrax",
+        )  # fmt: skip
+        return jnp.asarray(run["x"])[-1]
+
+    t = 1.0
+    for _ in range(50):
+        t = (1.0 + 0.5 * np.sin(t)) / 1.5
+    # d/dk of k t* + 3 (2 - t*), where (k - cos(t*) / 2) dt* = -t* dk
+    assert_allclose(jax.grad(end)(1.5), t + (1.5 - 3.0) * -t / (1.5 - 0.5 * np.cos(t)), rtol=1e-8)
+
+
+class Threshold(Component):
+    """No states: a nonlinear load whose source changes once with a latch, at ``y = top`` on the way up."""
+
+    y: Variable = Variable()
+    top: Parameter = Parameter(0.4)
+    on: Discrete = Discrete(start=0)
+    last: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield self.y + self.y**3 == where(pre(self.on) > 0.5, self.top, 1.0) * ac.sin(ac.time)
+        yield when(self.y > self.top, {self.on: 1, self.last: ac.time})
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_a_model_without_states(engine: Any) -> None:
+    """The latch is set at ``sin t = top + top^3``; behind it ``y + y^3 = top sin t``."""
+    system = ac.compile(Threshold())
+
+    def seen(top: Any) -> Any:
+        run = system.simulate(1.5, parameters={"top": top}, engine=engine, saveat=np.array([0.2, 1.5]))
+        return jnp.stack([jnp.asarray(run["y"])[-1], jnp.asarray(run["last"])[-1]])
+
+    found = np.asarray(jax.jacfwd(seen)(0.4))
+    wanted = (1.0 + 3.0 * 0.4**2) / np.cos(np.arcsin(0.4 + 0.4**3))
+    y = float(seen(0.4)[0])
+    assert_allclose(y + y**3, 0.4 * np.sin(1.5), rtol=1e-8)
+    assert_allclose(found, [np.sin(1.5) / (1.0 + 3.0 * y**2), wanted], rtol=1e-7)
+
+
+def test_diffrax_within_a_compiled_program() -> None:
+    """`when` cannot be carried out there; conditions are stepped over, and what that does to derivatives is said."""
     system = ac.compile(BouncingBall())
-    with pytest.raises(ac.SimulationError, match="does not differentiate runs with events; the native engine does"):
-        jax.grad(lambda e: system.simulate(1.0, parameters={"e": e}, engine="diffrax")["h"][-1])(0.7)
+
+    def height(e: Any) -> Any:
+        return jnp.asarray(system.simulate(1.0, parameters={"e": e}, engine="diffrax", saveat=2)["h"])[-1]
+
+    for inside in (jax.jit(height), lambda e: jax.vmap(height)(e * jnp.ones(2))):
+        with pytest.raises(ac.SimulationError, match=r"inside of jit or vmap it cannot run\. The native engine can"):
+            inside(0.7)
+    jumps = ac.compile(Jump())
+
+    def end(k: Any) -> Any:
+        return jnp.asarray(jumps.simulate(2.0, parameters={"k": k}, engine="diffrax", saveat=2)["x"])[-1]
+
+    assert_allclose(jax.jit(end)(1.5), 5.0, rtol=1e-6)
+    with pytest.warns(UserWarning, match=r"leave out the jump where they are not:\n    `x < a` \(.*test_gradients.py:"):
+        jax.jit(jax.grad(end))(1.5)

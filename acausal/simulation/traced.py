@@ -1,7 +1,9 @@
-"""The native engine inside JAX: one callback a solve, derivatives by the sensitivities that the solve itself gives.
+"""Solves on the host inside JAX, derivatives by the sensitivities that the solve itself gives.
 
-The tangent of a solve is its sensitivity matrix times the tangents of the values: the callback depends on primals only
-and the rest is linear, so that forward and reverse mode, `vmap` and `jit` all go through it.
+The tangent of a solve is its sensitivity matrix times the tangents of the values: the solve depends on primals only
+and the rest is linear. The native engine solves in a callback, so that forward and reverse mode, `vmap` and `jit` all
+go through it. A solve that uses JAX itself cannot be a callback, which might wait for itself: it is carried out where
+the values are known, as under `grad`, `jacfwd` and `jacrev`.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import jax
 import jax.numpy as jnp
@@ -19,16 +21,45 @@ import numpy as np
 from jax.custom_derivatives import SymbolicZero
 
 from acausal.errors import AcausalError, SimulationError
+from acausal.lowering.numeric import is_concrete
 
 from .cache import ById
-from .engines import ATOL, INVARIANT_SAFETY, POINTS
+from .engines import POINTS
 from .hybrid_run import HybridRun
 from .inputs import drive
-from .native import NativeModel
-from .native_library import RESULTS
+from .native_library import RESULTS, Floats
 from .solution import Solution
-from .started import Given, Seed, Tolerances, parameter_ids
+from .started import Given, Seed, Started, Tolerances, parameter_ids
 from .watch import Stop, watch
+
+
+class Model(Protocol):
+    """What an engine offers: a run, and one with derivatives, as `acausal.simulation.native.NativeModel`."""
+
+    system: Any
+
+    def run(
+        self, t0: float, t1: float, save: Floats, given: Given, how: Tolerances, check: bool = True
+    ) -> tuple[Started, Any]: ...
+
+    def sensitivities(
+        self, t0: float, t1: float, save: Floats, given: Given, how: Tolerances, seeds: Sequence[Seed],
+        check: bool = True,
+    ) -> tuple[Started, Any, Floats, Floats]: ...  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Way:
+    """How solves are carried out.
+
+    Attributes:
+        solver, engine: names, for the record.
+        direct: where the values are known, and not in a callback.
+    """
+
+    solver: str
+    engine: str
+    direct: bool
 
 
 @dataclass(frozen=True)
@@ -36,13 +67,15 @@ class _Spec:
     """What a solve is made for: everything but the numbers.
 
     Attributes:
-        model: the native model.
+        model: the model.
+        way: how it is solved.
         parameters, initial: names of the values given.
         tables: for each input, whether it is a table.
         max_steps, throw: as for `simulate`.
     """
 
     model: ById
+    way: Way
     parameters: tuple[str, ...]
     initial: tuple[str, ...]
     tables: tuple[bool, ...]
@@ -51,31 +84,27 @@ class _Spec:
 
 
 def simulate_traced(
-    model: NativeModel, t0: Any, t1: Any, saveat: Any, rtol: Any, atol: Any, dt: Any, parameters: dict[str, Any],
+    model: Model, way: Way, t0: Any, t1: Any, saveat: Any, rtol: Any, atol: Any, dt: Any, parameters: dict[str, Any],
     initial: dict[str, Any], signals: list[tuple[Any, Any]], *, inputs: Any, max_steps: int, throw: bool,
 ) -> Solution:  # fmt: skip
-    """A solve with traced values."""
-    low = model.system.lowered
+    """A solve with traced values; the tolerances are those that the model takes."""
     save = _times(saveat, t0, t1)
-    safety = INVARIANT_SAFETY if low.n_g else 1.0
-    wanted = ATOL * jnp.asarray(rtol, float) if atol is None else jnp.asarray(atol, float)
-    relative = jnp.broadcast_to(wanted, (low.n_x,))
-    scale = jnp.concatenate([relative * low.x_nominal, jnp.min(wanted) * jnp.asarray(low.w_nominal)])
     tables = tuple(np.shape(t)[0] > 1 for t, _ in signals)
-    spec = _Spec(ById(model), tuple(parameters), tuple(initial), tables, max_steps, throw)
+    spec = _Spec(ById(model), way, tuple(parameters), tuple(initial), tables, max_steps, throw)
     values = (
         tuple(jnp.asarray(v, float) for v in parameters.values()),
         tuple(jnp.asarray(v, float) for v in initial.values()),
         tuple(jnp.asarray(v[0], float) for (_, v), table in zip(signals, tables, strict=True) if not table),
     )
     plain = (
-        jnp.asarray(t0, float), jnp.asarray(t1, float), save, safety * jnp.asarray(rtol, float), safety * scale,
+        jnp.asarray(t0, float), jnp.asarray(t1, float), save, jnp.asarray(rtol, float), jnp.asarray(atol, float),
         jnp.asarray(0.0 if dt is None else dt, float),
         tuple((jnp.asarray(t, float), jnp.asarray(v, float)) for t, v in signals if np.shape(t)[0] > 1),
     )  # fmt: skip
     x, w, p, counts, slots = _solve(spec, values, plain)
     slots = slots if model.system.hybrid is not None else None
-    stats = {"steps": counts[0], "accepted": counts[1], "rejected": counts[2], "solver": "Rodas5P", "engine": "native"}
+    stats = {"steps": counts[0], "accepted": counts[1], "rejected": counts[2]}
+    stats |= {"solver": way.solver, "engine": way.engine}
     if not inputs:
         return Solution(model.system, save, x, w, p, stats=stats, slots=slots)
     lowered, numbers = drive(model.system, inputs)
@@ -96,8 +125,23 @@ def _times(saveat: Any, t0: Any, t1: Any) -> Any:
 @functools.partial(jax.custom_jvp, nondiff_argnums=(0,))
 def _solve(spec: _Spec, values: Any, plain: Any) -> Any:
     """Trajectories x (n_t, n_x) and w (n_t, n_w), parameters (n_p,), counts (3,), and slots (n_t, n_slots)."""
-    shapes = _shapes(spec, plain[2].shape[0])
-    return jax.pure_callback(functools.partial(_host, spec, None), shapes, values, plain, vmap_method="broadcast_all")
+    return _called(spec, None, _shapes(spec, plain[2].shape[0]), values, plain)
+
+
+def _called(spec: _Spec, moving: tuple[int, ...] | None, shapes: Any, values: Any, plain: Any) -> Any:
+    """The host's solve with these values."""
+    host = functools.partial(_host, spec, moving)
+    if not spec.way.direct:
+        return jax.pure_callback(host, shapes, values, plain, vmap_method="broadcast_all")
+    if not is_concrete((values, plain)):
+        raise SimulationError(
+            "The diffrax engine carries out events outside of JAX's programs, where the values are known: jax.grad, "
+            "jax.jacfwd and jax.jacrev of a run with events work, inside of jit or vmap it cannot run. The native "
+            "engine can (engine='native'; it needs a C compiler); and events=False switches events off where the "
+            "model has conditions only."
+        )
+    with ThreadPoolExecutor(max_workers=1) as pool:  # where JAX does not record what it is asked to do
+        return pool.submit(host, values, plain).result()
 
 
 def _jvp(spec: _Spec, primals: Any, tangents: Any) -> Any:
@@ -105,17 +149,15 @@ def _jvp(spec: _Spec, primals: Any, tangents: Any) -> Any:
     d_values, d_plain = tangents
     if any(not isinstance(d, SymbolicZero) for d in jax.tree.leaves(d_plain, is_leaf=_is_zero)):
         raise SimulationError(
-            "The native engine differentiates parameters, start values and constant inputs; for derivatives with "
-            "respect to times, tolerances or tables take engine='diffrax'."
+            "Parameters, start values and constant inputs are differentiated here; derivatives with respect to "
+            "times, tolerances or tables have runs without events on engine='diffrax' only."
         )
     leaves = jax.tree.leaves(d_values, is_leaf=_is_zero)
     moving = tuple(k for k, d in enumerate(leaves) if not isinstance(d, SymbolicZero))
     x, w, p, _, slots = shapes = _shapes(spec, plain[2].shape[0])
     k = sum(int(np.prod(leaves[i].shape)) for i in moving)
     slopes = tuple(jax.ShapeDtypeStruct((*s.shape, k), s.dtype) for s in (x, w, p, slots))
-    (x, w, p, counts, slots), (dx, dw, dp, ds) = jax.pure_callback(
-        functools.partial(_host, spec, moving), (shapes, slopes), values, plain, vmap_method="broadcast_all"
-    )
+    (x, w, p, counts, slots), (dx, dw, dp, ds) = _called(spec, moving, (shapes, slopes), values, plain)
     direction = jnp.concatenate([jnp.ravel(leaves[i]) for i in moving] or [jnp.zeros(0)])
     still = np.zeros(counts.shape, jax.dtypes.float0)
     slopes = dx @ direction, dw @ direction, dp @ direction, still, ds @ direction
@@ -175,7 +217,7 @@ def _picker(spec: _Spec, moving: Any, values: Any, plain: Any) -> Callable[[tupl
 
 def _one(spec: _Spec, moving: tuple[int, ...] | None, values: Any, plain: Any) -> Any:
     """One solve: trajectories, parameters, counts, and with `moving` their slopes."""
-    model: NativeModel = spec.model.thing
+    model: Model = spec.model.thing
     low, n_p = model.system.lowered, model.system.program.n_p
     t0, t1, save, rtol, atol, dt, tables = plain
     given = Given(
@@ -229,7 +271,7 @@ def _signals(spec: _Spec, constants: Sequence[Any], tables: Sequence[Any]) -> li
     return [next(table) if is_table else (np.zeros(1), np.reshape(next(constant), 1)) for is_table in spec.tables]
 
 
-def _seeds(model: NativeModel, spec: _Spec, values: Any, moving: tuple[int, ...]) -> list[Seed]:
+def _seeds(model: Model, spec: _Spec, values: Any, moving: tuple[int, ...]) -> list[Seed]:
     """Directions of the moving values, one for each element."""
     representative, sign = model.system.observed_ids
     places: list[tuple[str, Any, Any]] = []
