@@ -73,7 +73,8 @@ def _line(flat: FlatModel, index: int, text: str) -> str:
     declaration: Any = flat.names.declaration(index, parameter=True)
     _, place = field_place(declaration.owner, declaration.name)
     unit = f" [{declaration.unit}]" if declaration.unit else ""
-    return f"    `{flat.parameter_name(index)}`{unit}{text}    {place}"
+    doc = f" ({declaration.doc})" if declaration.doc else ""
+    return f"    `{flat.parameter_name(index)}`{unit}{text}{doc}    {place}"
 
 
 def _bounds(template: Template) -> tuple[Floats, Floats]:

@@ -1,5 +1,12 @@
 """Three-dimensional mechanics, named as in Modelica.Mechanics.MultiBody 4.0."""
 
+from .assemblies import JointRRP as JointRRP
+from .assemblies import JointRRR as JointRRR
+from .assemblies import JointSSP as JointSSP
+from .assemblies import JointSSR as JointSSR
+from .assemblies import JointUPS as JointUPS
+from .assemblies import JointUSP as JointUSP
+from .assemblies import JointUSR as JointUSR
 from .bodies import Body as Body
 from .bodies import PointMass as PointMass
 from .drives import Mounting1D as Mounting1D

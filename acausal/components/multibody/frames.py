@@ -33,6 +33,10 @@ from acausal import (
 from acausal.language.vectors import VectorEquation
 
 ZEROS = (0.0, 0.0, 0.0)
+TINY = 1e-15
+"""Smallest length that counts as one [m]."""
+PARALLEL = 1e-5
+"""Directions with a smaller sine of the angle between them are parallel."""
 IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 

@@ -8,6 +8,7 @@ from typing import Any
 from acausal import Equations, Parameter, Variable, Vector, branch, cross, der, dot, vector, where
 
 from .frames import (
+    TINY,
     ZEROS,
     Rotation,
     axes_rotations,
@@ -197,16 +198,18 @@ class RevolutePlanarLoopConstraint(PartialTwoFrames):
         yield b.f == -resolve_relative(a.f, a.R, b.R)
 
 
-def implied_mass(modifications: Mapping[str, Any]) -> dict[str, Any]:
+def implied_mass(modifications: Mapping[str, Any], *names: str) -> dict[str, Any]:
     """A mass that is given makes a component `massive`: its acceleration is needed then."""
-    given = modifications.get("m", 0.0)
-    return {"massive": not (isinstance(given, (int, float)) and given == 0.0)}
+    given = [modifications.get(name, 0.0) for name in names or ("m",)]
+    return {"massive": not all(isinstance(m, (int, float)) and m == 0.0 for m in given)}
 
 
 class SphericalSpherical(PartialTwoFrames, Grounded):
     """Rod of constant length with a ball joint at each end, and (where `m` is given) a point mass in its middle.
 
-    ``|r_b - r_a| = rodLength``; `f_rod` is the force along the rod, positive on frame_a when directed to frame_b.
+    ``|r_b - r_a| = rodLength``; `f_rod` is the force along the rod, positive on frame_a when directed to frame_b. With
+    `computeRodLength`, the length follows from the start. (`kinematicConstraint` is for the assemblies, which see to
+    the length.)
 
     Source: Modelica.Mechanics.MultiBody.Joints.SphericalSpherical.
 
@@ -218,8 +221,11 @@ class SphericalSpherical(PartialTwoFrames, Grounded):
     """
 
     massive: bool = False
-    rodLength: Parameter = Parameter(1.0, unit="m", min=0.0, doc="distance of frame_b from frame_a")
+    computeRodLength: bool = False
+    kinematicConstraint: bool = True
+    rodLength: Parameter = Parameter(1.0, unit="m", min=TINY, doc="distance of frame_b from frame_a")
     m: Parameter = Parameter(0.0, unit="kg", min=0.0, doc="mass in the middle of the rod")
+    length: Variable = Variable(unit="m", start=rodLength, doc="length of the rod")
     f_rod: Variable = Variable(unit="N", doc="force along the rod, positive on frame_a when directed to frame_b")
     rRod_0: Vector = Vector(Variable(unit="m", state_select="never", doc="from frame_a to frame_b, in the world frame"))
     eRod_a: Vector = Vector(Variable(unit="1", doc="direction from frame_a to frame_b, resolved in frame_a"))
@@ -234,9 +240,11 @@ class SphericalSpherical(PartialTwoFrames, Grounded):
     def equations(self) -> Equations:
         yield from super().equations()
         a, b = self.frame_a, self.frame_b
+        yield (der(self.length) if self.computeRodLength else self.length - self.rodLength) == 0
         yield self.rRod_0 == b.r_0 - a.r_0
-        yield self.eRod_a == resolve2(a.R, self.rRod_0) / self.rodLength
-        yield dot(self.rRod_0, self.rRod_0) == self.rodLength**2
+        yield self.eRod_a == resolve2(a.R, self.rRod_0) / self.length
+        if self.kinematicConstraint:
+            yield dot(self.rRod_0, self.rRod_0) == self.length**2
         yield a.t == ZEROS
         yield b.t == ZEROS
         yield self.r_CM_0 == a.r_0 + self.rRod_0 / 2
