@@ -191,7 +191,7 @@ def given_starts(problem: InitialProblem, starts: Any, overrides: dict[int, Any]
     w = _start_of(problem, low.schedule.tears, starts, xp)
     fixed = problem.fixed.copy()
     ids = problem.targets[~np.isin(problem.targets, list(overrides))] if overrides else problem.targets
-    wanted = problem.start_sign[ids] * starts[problem.start_source[ids]]
+    wanted = _start_of(problem, ids, starts, xp)
     position = {int(v): i for i, v in enumerate(states)} if overrides else {}
     inside = {position[k]: v for k, v in overrides.items() if k in position}
     outside = {k: v for k, v in overrides.items() if k not in position}
@@ -229,6 +229,7 @@ def connected(pattern: Any, rows: Bools) -> Bools:
 
 
 def _start_of(problem: InitialProblem, ids: Ints, starts: Any, xp: Any) -> Any:
+    """Start values of the variables, zero where none is given."""
     if not len(ids):
         return xp.zeros(0)
     values = problem.start_sign[ids] * starts[problem.start_source[ids]]

@@ -23,7 +23,8 @@ from acausal.components import (
 
 from .examples import EXAMPLES, simulated
 
-MODULES = (blocks, bondgraph, electrical, hydraulic, multibody, planar, rotational, thermal, translational)
+MODULES = (blocks, bondgraph, electrical, hydraulic, multibody, multibody.constraints, planar,
+           rotational, thermal, translational)  # fmt: skip
 
 
 def public_classes() -> list[type[Component]]:

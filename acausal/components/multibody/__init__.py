@@ -1,5 +1,6 @@
 """Three-dimensional mechanics, named as in Modelica.Mechanics.MultiBody 4.0."""
 
+from . import constraints as constraints
 from .assemblies import JointRRP as JointRRP
 from .assemblies import JointRRR as JointRRR
 from .assemblies import JointSSP as JointSSP
@@ -9,6 +10,8 @@ from .assemblies import JointUSP as JointUSP
 from .assemblies import JointUSR as JointUSR
 from .bodies import Body as Body
 from .bodies import PointMass as PointMass
+from .drives import BevelGear1D as BevelGear1D
+from .drives import GearConstraint as GearConstraint
 from .drives import Mounting1D as Mounting1D
 from .drives import Rotor1D as Rotor1D
 from .forces import Force as Force
@@ -23,6 +26,13 @@ from .free_joints import FreeMotion as FreeMotion
 from .free_joints import RevolutePlanarLoopConstraint as RevolutePlanarLoopConstraint
 from .free_joints import Spherical as Spherical
 from .free_joints import SphericalSpherical as SphericalSpherical
+from .free_motion_init import FreeMotionScalarInit as FreeMotionScalarInit
+from .general_sensors import AbsoluteAngles as AbsoluteAngles
+from .general_sensors import AbsoluteSensor as AbsoluteSensor
+from .general_sensors import RelativeAngles as RelativeAngles
+from .general_sensors import RelativeSensor as RelativeSensor
+from .general_sensors import TransformAbsoluteVector as TransformAbsoluteVector
+from .general_sensors import TransformRelativeVector as TransformRelativeVector
 from .joints import Cylindrical as Cylindrical
 from .joints import Planar as Planar
 from .joints import Prismatic as Prismatic
@@ -30,6 +40,7 @@ from .joints import Revolute as Revolute
 from .joints import Universal as Universal
 from .line_forces import Damper as Damper
 from .line_forces import LineForceWithMass as LineForceWithMass
+from .line_forces import LineForceWithTwoMasses as LineForceWithTwoMasses
 from .line_forces import PartialLineForce as PartialLineForce
 from .line_forces import Spring as Spring
 from .line_forces import SpringDamperParallel as SpringDamperParallel
@@ -37,6 +48,10 @@ from .line_forces import SpringDamperSeries as SpringDamperSeries
 from .parts import FixedRotation as FixedRotation
 from .parts import FixedTranslation as FixedTranslation
 from .parts import PartialTwoFrames as PartialTwoFrames
+from .rolling import RollingWheel as RollingWheel
+from .rolling import RollingWheelJoint as RollingWheelJoint
+from .rolling import RollingWheelSet as RollingWheelSet
+from .rolling import RollingWheelSetJoint as RollingWheelSetJoint
 from .sensors import AbsoluteAngularVelocity as AbsoluteAngularVelocity
 from .sensors import AbsolutePosition as AbsolutePosition
 from .sensors import AbsoluteVelocity as AbsoluteVelocity

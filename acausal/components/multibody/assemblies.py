@@ -11,14 +11,12 @@ from typing import Any
 
 from acausal import (
     Equations,
-    Expr,
     Parameter,
     Variable,
     Vector,
     branch,
     connect,
     cross,
-    dot,
     norm,
     structural,
 )

@@ -17,6 +17,7 @@ from acausal import (
     matrix,
     potential_root,
     root,
+    structural,
 )
 
 from .frames import (
@@ -42,7 +43,8 @@ class Body(Grounded):
 
     A body that no chain of joints ties to a fixed frame is the root of its tree. Its orientation then is a quaternion
     `Q` (scalar part last), integrated by ``dQ/dt = G(Q)' w/2``; it needs no length of one, so nothing is singular and
-    nothing drifts apart, however often the body turns.
+    nothing drifts apart, however often the body turns. Without `useQuaternions` it is the angles `phi` about the axes
+    of `sequence_angleStates`, which are singular where the second one lays the third axis along the first.
 
     >>> body = Body(I_11=1.0, I_22=2.0, I_33=3.0, w_0_fixed=True, w_0_start=(0.0, 0.5, 0.0))
     >>> model = assemble(world=ac.inner(World(gravityType="NoGravity")), body=body)
@@ -58,7 +60,9 @@ class Body(Grounded):
     w_0_fixed: bool = False
     z_0_fixed: bool = False
     enforceStates: bool = False
+    useQuaternions: bool = True
     sequence_start: tuple[float, ...] = (1.0, 2.0, 3.0)
+    sequence_angleStates: tuple[float, ...] = (1.0, 2.0, 3.0)
     r_CM: Vector = Vector(Parameter(unit="m", doc="from frame_a to the centre of mass, resolved in frame_a"), ZEROS)
     m: Parameter = Parameter(1.0, unit="kg", min=0.0, doc="mass")
     I_11: Parameter = Parameter(0.001, unit="kg*m2", min=0.0, doc="element 1,1 of the inertia tensor at the centre")
@@ -87,16 +91,14 @@ class Body(Grounded):
         Variable(unit="1", doc="orientation as a quaternion, scalar part last, where the body is a root"),
         (0.0, 0.0, 0.0, 1.0), size=4,
     )  # fmt: skip
+    phi: Vector = Vector(Variable(unit="rad", state_select="prefer", doc="angles, where they are the orientation"))
+    phi_d: Vector = Vector(Variable(unit="rad/s", state_select="prefer", doc="their derivatives"))
 
     def equations(self) -> Equations:
         yield from super().equations()
         R, r_CM = self.frame_a.R, self.r_CM
         yield root(R) if self.enforceStates else potential_root(R)
-        yield choose(
-            is_root(R),
-            [defining(R.T == from_quaternion(self.Q)), der(self.Q) == quaternion_rate(self.Q, self.w_a)],
-            [self.Q == (0.0, 0.0, 0.0, 1.0)],
-        )
+        yield from self.orientation()
         yield self.r_0 == self.frame_a.r_0
         yield self.v_0 == der(self.frame_a.r_0)
         yield self.a_0 == der(self.v_0)
@@ -108,6 +110,20 @@ class Body(Grounded):
         inertia = self.inertia()
         yield self.frame_a.t == inertia @ z + cross(w, inertia @ w) + cross(r_CM, self.frame_a.f)
 
+    def orientation(self) -> Equations:
+        """The orientation of a root."""
+        R, Q, phi, phi_d = self.frame_a.R, self.Q, self.phi, self.phi_d
+        if self.useQuaternions:
+            by_states = [defining(R.T == from_quaternion(Q)), der(Q) == quaternion_rate(Q, self.w_a)]
+            yield choose(is_root(R), by_states, [Q == (0.0, 0.0, 0.0, 1.0)])
+            yield phi == ZEROS
+            yield phi_d == ZEROS
+            return
+        turned = axes_rotations(self.sequence_angleStates, phi, phi_d)
+        by_states = [defining(R.T == turned.T), R.w == turned.w, phi_d == der(phi)]
+        yield choose(is_root(R), by_states, [phi == ZEROS, phi_d == ZEROS])
+        yield Q == (0.0, 0.0, 0.0, 1.0)
+
     def inertia(self) -> Matrix:
         """Inertia tensor about the centre of mass."""
         return matrix(
@@ -117,7 +133,8 @@ class Body(Grounded):
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()
         R = self.frame_a.R
-        yield choose(is_root(R), [dot(self.Q, self.Q) == 1])
+        if self.useQuaternions:
+            yield choose(is_root(R), [dot(self.Q, self.Q) == 1])
         if self.angles_fixed:
             yield rotation_residual(R.T, axes_rotations(self.sequence_start, self.angles_start).T) == ZEROS
         if self.w_0_fixed:
@@ -138,10 +155,15 @@ class PointMass(Grounded):
     Source: Modelica.Mechanics.MultiBody.Parts.PointMass.
     """
 
+    stateSelect: str = "avoid"
     frame_a: Frame = Frame()
     m: Parameter = Parameter(1.0, unit="kg", min=0.0, doc="mass")
-    r_0: Vector = Vector(Variable(unit="m", state_select="avoid", doc="position in the world frame"))
-    v_0: Vector = Vector(Variable(unit="m/s", state_select="avoid", doc="velocity, in the world frame"))
+    r_0: Vector = Vector(
+        Variable(unit="m", state_select=structural("stateSelect"), doc="position in the world frame")
+    )
+    v_0: Vector = Vector(
+        Variable(unit="m/s", state_select=structural("stateSelect"), doc="velocity, in the world frame")
+    )
     a_0: Vector = Vector(Variable(unit="m/s2", doc="acceleration, in the world frame"))
 
     def equations(self) -> Equations:

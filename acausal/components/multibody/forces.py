@@ -24,23 +24,23 @@ class PartialResolved(Component, partial=True):
         """Whether vectors are resolved in a frame of its own."""
         return self.resolveInFrame == "frame_resolve"
 
-    def to_world(self, v: Vector) -> Vector:
-        """A vector of the component's signals, resolved in the world frame."""
-        frame = self._frame()
+    def to_world(self, v: Vector, given: str = "") -> Vector:
+        """A vector of the component's signals (resolved in the frame `given`), resolved in the world frame."""
+        frame = self._frame(given or self.resolveInFrame)
         return v if frame is None else resolve1(frame.R, v)
 
-    def from_world(self, v: Vector) -> Vector:
+    def from_world(self, v: Vector, wanted: str = "") -> Vector:
         """The other way."""
-        frame = self._frame()
+        frame = self._frame(wanted or self.resolveInFrame)
         return v if frame is None else resolve2(frame.R, v)
 
-    def _frame(self) -> Frame | None:
+    def _frame(self, name: str) -> Frame | None:
         known = ["world", *(n for n in ("frame_a", "frame_b") if n in type(self)._children), "frame_resolve"]
-        if self.resolveInFrame not in known:
+        if name not in known:
             raise DeclarationError(
-                f"{type(self).__name__}(resolveInFrame={self.resolveInFrame!r}): choose from {', '.join(known)}"
+                f"{type(self).__name__}(resolveInFrame={name!r}): choose from {', '.join(known)}"
             )
-        return None if self.resolveInFrame == "world" else getattr(self, self.resolveInFrame)
+        return None if name == "world" else getattr(self, name)
 
     def equations(self) -> Equations:
         yield from super().equations()

@@ -19,12 +19,14 @@ from acausal import (
     Overdetermined,
     Potential,
     Vector,
+    atan2,
     cos,
     cross,
     defining,
     derivative_rule,
     dot,
     matrix,
+    noevent,
     norm,
     sin,
     vector,
@@ -125,6 +127,16 @@ def unit_vector(n: Vector) -> Vector:
     return n / norm(n)
 
 
+def planar_basis(e: Vector) -> tuple[Vector, Vector]:
+    """Two unit vectors across `e`, which has length one, and across each other."""
+    first = abs(e[0]) > 0.1
+    second = abs(e[1]) > 0.1
+    otherwise = vector(where(second, 0.0, 1.0), 0.0, where(second, 1.0, 0.0))
+    other = vector(*(where(first, x, o) for x, o in zip((0.0, 1.0, 0.0), otherwise, strict=True)))
+    y = unit_vector(cross(e, other))
+    return cross(y, e), y
+
+
 def skew(v: Vector) -> Matrix:
     """Matrix of the vector product, ``skew(v) u = v x u``."""
     x, y, z = v
@@ -158,6 +170,24 @@ def axes_rotations(sequence: Sequence[float], angles: Vector, rates: Vector | No
     axes = [vector(*(1.0 if i == int(axis) else 0.0 for i in (1, 2, 3))) for axis in sequence]
     w = axes[2] * rates[2] + third @ (axes[1] * rates[1]) + third @ (second @ (axes[0] * rates[0]))
     return Rotation(T, w)
+
+
+def rotation_angles(T: Matrix, sequence: Sequence[float], guess: Any) -> Vector:
+    """Angles about the axes numbered in `sequence` that give the matrix: the inverse of `axes_rotations`.
+
+    Of both solutions, the one whose first angle is nearer to `guess`. The third axis is across the turned second one,
+    which gives the first angle; where the first axis is along the third, the angles are not determined.
+    """
+    first, second, third = (vector(*(1.0 if i == int(axis) else 0.0 for i in (1, 2, 3))) for axis in sequence)
+    axis = T.transpose() @ third
+    a, b = dot(second, axis), dot(cross(first, second), axis)
+    one, other = atan2(a, -b), atan2(-a, b)
+    phi_1 = noevent(where(abs(one - guess) <= abs(other - guess), one, other))
+    rest = T @ axis_rotation(int(sequence[0]), phi_1).transpose()  # about the second axis, then the third
+    across = cross(third, second)
+    phi_2 = atan2(-dot(rest.transpose() @ third, across), dot(rest.transpose() @ third, third))
+    phi_3 = atan2(-dot(rest @ second, across), dot(rest @ second, second))
+    return vector(phi_1, phi_2, phi_3)
 
 
 def from_nxy(n_x: Vector, n_y: Vector) -> Matrix:

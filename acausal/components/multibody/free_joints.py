@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from acausal import Equations, Parameter, Variable, Vector, branch, cross, der, dot, vector, where
+from acausal import Equations, Parameter, Variable, Vector, branch, der, dot
 
 from .frames import (
     TINY,
@@ -13,6 +13,7 @@ from .frames import (
     Rotation,
     axes_rotations,
     from_quaternion,
+    planar_basis,
     quaternion_rate,
     relative_rotation,
     resolve1,
@@ -26,7 +27,10 @@ from .world import Grounded
 
 
 class PartialRelativeRotation(PartialTwoFrames, partial=True):
-    """Orientation of frame b against frame a, with its start; a state where `enforceStates`, a quaternion `Q` then.
+    """Orientation of frame b against frame a, with its start; a state where `enforceStates`.
+
+    The state is a quaternion `Q`, or with `useQuaternions` false the angles `phi` about the axes of
+    `sequence_angleStates`, which are singular where the second one lays the third axis along the first.
 
     Source: the common part of Modelica.Mechanics.MultiBody.Joints.Spherical and FreeMotion.
     """
@@ -34,13 +38,19 @@ class PartialRelativeRotation(PartialTwoFrames, partial=True):
     enforceStates: bool = False
     angles_fixed: bool = False
     w_rel_a_fixed: bool = False
+    z_rel_a_fixed: bool = False
+    useQuaternions: bool = True
     sequence_start: tuple[float, ...] = (1.0, 2.0, 3.0)
+    sequence_angleStates: tuple[float, ...] = (1.0, 2.0, 3.0)
     angles_start: Vector = Vector(
         Parameter(unit="rad", doc="angles about the axes of sequence_start, frame_a to frame_b, at the start"), ZEROS
     )
     w_rel_a_start: Vector = Vector(
         Parameter(unit="rad/s", doc="angular velocity of frame_b against frame_a at the start, resolved in frame_a"),
         ZEROS,
+    )
+    z_rel_a_start: Vector = Vector(
+        Parameter(unit="rad/s2", doc="angular acceleration of frame_b against frame_a at the start, in frame_a"), ZEROS
     )
     Q: Vector = Vector(
         Variable(unit="1", state_select="prefer", doc="orientation as a quaternion, scalar part last, if a state"),
@@ -50,30 +60,41 @@ class PartialRelativeRotation(PartialTwoFrames, partial=True):
         Variable(unit="rad/s", state_select="prefer", doc="angular velocity against frame_a, resolved in frame_b")
     )
 
+    phi: Vector = Vector(Variable(unit="rad", state_select="prefer", doc="angles, if they are states"))
+    phi_d: Vector = Vector(Variable(unit="rad/s", state_select="prefer", doc="their derivatives"))
+
     def rotation(self) -> Rotation:
         """The rotation from frame_a to frame_b as states give it."""
-        return Rotation(from_quaternion(self.Q), self.w_rel)
+        if self.useQuaternions:
+            return Rotation(from_quaternion(self.Q), self.w_rel)
+        return axes_rotations(self.sequence_angleStates, self.phi, self.phi_d)
 
     def equations(self) -> Equations:
         yield from super().equations()
         a, b = self.frame_a, self.frame_b
+        with_Q = self.enforceStates and self.useQuaternions
+        with_phi = self.enforceStates and not self.useQuaternions
         if self.enforceStates:
             yield branch(a.R, b.R)
-            yield der(self.Q) == quaternion_rate(self.Q, self.w_rel)
-        else:
-            yield self.Q == (0.0, 0.0, 0.0, 1.0)
-            yield self.w_rel == relative_rotation(a.R, b.R).w
+        yield der(self.Q) == quaternion_rate(self.Q, self.w_rel) if with_Q else self.Q == (0.0, 0.0, 0.0, 1.0)
+        yield self.phi_d == der(self.phi) if with_phi else self.phi == ZEROS
+        if not with_phi:
+            yield self.phi_d == ZEROS
+        if not with_Q:
+            yield self.w_rel == (self.rotation().w if with_phi else relative_rotation(a.R, b.R).w)
 
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()
         a, b = self.frame_a, self.frame_b
-        if self.enforceStates:
+        if self.enforceStates and self.useQuaternions:
             yield dot(self.Q, self.Q) == 1
+        T = axes_rotations(self.sequence_start, self.angles_start).T
         if self.angles_fixed:
-            T = axes_rotations(self.sequence_start, self.angles_start).T
             yield rotation_residual(relative_rotation(a.R, b.R).T, T) == ZEROS
         if self.w_rel_a_fixed:
             yield resolve_relative(self.w_rel, b.R, a.R) == self.w_rel_a_start
+        if self.z_rel_a_fixed:
+            yield resolve_relative(der(self.w_rel), b.R, a.R) == self.z_rel_a_start
 
 
 class Spherical(PartialRelativeRotation):
@@ -175,20 +196,10 @@ class RevolutePlanarLoopConstraint(PartialTwoFrames):
     )
     f_c: Vector = Vector(Variable(unit="N", doc="constraint forces in the plane"), size=2)
 
-    def plane(self) -> tuple[Vector, Vector]:
-        """Two unit vectors across the axis, resolved in frame_a."""
-        e = unit_vector(self.n)
-        first = abs(e[0]) > 0.1
-        second = abs(e[1]) > 0.1
-        otherwise = vector(where(second, 0.0, 1.0), 0.0, where(second, 1.0, 0.0))
-        other = vector(*(where(first, x, o) for x, o in zip((0.0, 1.0, 0.0), otherwise, strict=True)))
-        y = unit_vector(cross(e, other))
-        return cross(y, e), y
-
     def equations(self) -> Equations:
         yield from super().equations()
         a, b = self.frame_a, self.frame_b
-        e_x, e_y = self.plane()
+        e_x, e_y = planar_basis(unit_vector(self.n))
         r_rel_a = resolve2(a.R, b.r_0 - a.r_0)
         yield dot(e_x, r_rel_a) == 0
         yield dot(e_y, r_rel_a) == 0

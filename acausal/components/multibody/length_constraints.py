@@ -63,8 +63,8 @@ class RevoluteWithLengthConstraint(PartialLengthConstraint):
     """Hinge whose angle follows from the length of a rod.
 
     With `e` the axis and ``A = -2 (r_b.r_a - e.r_b e.r_a)``, ``B = 2 r_b.(e x r_a)``, ``C = r_a.r_a + r_b.r_b - L^2 - 2
-    e.r_b e.r_a``, the length of the rod is L where ``A cos(angle) + B sin(angle) + C = 0``: ``angle = atan2(-B C -+ A k,
-    -A C +- B k)`` with ``k = sqrt(A^2 + B^2 - C^2)``. ``angle = phi + phi_offset`` (which is in degrees).
+    e.r_b e.r_a``, the length of the rod is L where ``A cos(angle) + B sin(angle) + C = 0``: ``angle = atan2(-B C -+
+    A k, -A C +- B k)`` with ``k = sqrt(A^2 + B^2 - C^2)``. ``angle = phi + phi_offset`` (which is in degrees).
 
     Source: Modelica.Mechanics.MultiBody.Joints.Internal.RevoluteWithLengthConstraint.
     """

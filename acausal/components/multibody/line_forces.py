@@ -13,6 +13,7 @@ from acausal import (
     choose,
     defining,
     der,
+    dot,
     is_root,
     max,
     noevent,
@@ -132,6 +133,64 @@ class LineForceWithMass(PartialMassiveLineForce):
         return -self.flange_a.f, -self.flange_b.f
 
 
+class LineForceWithTwoMasses(PartialLineForce, Grounded):
+    """Line between two frames for components of `translational`, with two point masses on it.
+
+    `m_a` is on the line at `L_a` from frame_a, `m_b` at `L_b` from frame_b: the two halves of a cylinder, say.
+    Across the line their inertia acts on both frames as on the ends of a rod. ``flange_a.s = 0``, ``flange_b.s = s``.
+
+    >>> model = assemble("world.frame_b - line.frame_a", "line.frame_b - bob.frame_a",
+    ...                  "line.flange_a - spring.flange_a", "line.flange_b - spring.flange_b",
+    ...                  world=ac.inner(World(g=10.0)), line=LineForceWithTwoMasses(L_a=0.3, L_b=0.5, m_a=5.0, m_b=2.0),
+    ...                  spring=translational.Spring(c=10.0, s_rel0=1.0),
+    ...                  bob=PointMass(m=2.0, r_0=start((0.0, -2.0, 0.0), fixed=True)))
+    >>> close(run(model, at=[0.0])["bob.a_0[2]"], [-7.5])  # 10*(2 - 1)/4 - 10
+    True
+
+    Source: Modelica.Mechanics.MultiBody.Forces.LineForceWithTwoMasses.
+    """
+
+    massive: bool = False
+    flange_a: translational.Flange = translational.Flange()
+    flange_b: translational.Flange = translational.Flange()
+    m_a: Parameter = Parameter(0.0, unit="kg", min=0.0, doc="mass near frame_a")
+    m_b: Parameter = Parameter(0.0, unit="kg", min=0.0, doc="mass near frame_b")
+    L_a: Parameter = Parameter(0.0, unit="m", doc="distance of m_a from frame_a")
+    L_b: Parameter = Parameter(L_a, unit="m", doc="distance of m_b from frame_b")
+    r_CM1_0: Vector = Vector(Variable(unit="m", state_select="avoid", doc="position of m_a, in the world frame"))
+    r_CM2_0: Vector = Vector(Variable(unit="m", state_select="avoid", doc="position of m_b, in the world frame"))
+    v_CM1_0: Vector = Vector(Variable(unit="m/s", state_select="avoid", doc="velocity of m_a"))
+    v_CM2_0: Vector = Vector(Variable(unit="m/s", state_select="avoid", doc="velocity of m_b"))
+    ag_CM1_0: Vector = Vector(Variable(unit="m/s2", doc="acceleration of m_a, less gravity"))
+    ag_CM2_0: Vector = Vector(Variable(unit="m/s2", doc="acceleration of m_b, less gravity"))
+
+    @classmethod
+    def _implied(cls, modifications: Mapping[str, Any]) -> dict[str, Any]:
+        return implied_mass(modifications, "m_a", "m_b")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        e = self.e_rel_0
+        yield self.flange_a.s == 0
+        yield self.flange_b.s == self.s
+        yield self.f == -self.flange_b.f
+        yield self.r_CM1_0 == self.frame_a.r_0 + e * self.L_a
+        yield self.r_CM2_0 == self.frame_b.r_0 - e * self.L_b
+        for r, v, ag in (
+            (self.r_CM1_0, self.v_CM1_0, self.ag_CM1_0), (self.r_CM2_0, self.v_CM2_0, self.ag_CM2_0)
+        ):  # fmt: skip
+            yield v == (der(r) if self.massive else ZEROS)
+            yield ag == (der(v) - self.world.gravity(r) if self.massive else ZEROS)
+
+    def cut_forces(self) -> Equations:
+        a, b, e = self.frame_a, self.frame_b, self.e_rel_0
+        of_a, of_b = self.ag_CM1_0 * self.m_a, self.ag_CM2_0 * self.m_b
+        lever = (of_a * self.L_a - of_b * self.L_b) / self.s
+        moved = lever - e * dot(lever, e)  # what the other frame bears of a mass that moves across the line
+        yield a.f == resolve2(a.R, of_a - moved - e * self.flange_a.f)
+        yield b.f == resolve2(b.R, of_b + moved - e * self.flange_b.f)
+
+
 class Spring(PartialMassiveLineForce):
     """Spring between two frames, ``f = c (s - s_unstretched)``.
 
@@ -202,7 +261,7 @@ class SpringDamperSeries(thermal.PartialConditionalHeatPort, PartialLineForce):
     >>> bob = PointMass(m=2.0, r_0=start((0.0, -2.0, 0.0), fixed=True))
     >>> model = assemble("world.frame_b - strut.frame_a", "strut.frame_b - bob.frame_a", bob=bob,
     ...                  world=ac.inner(World(g=10.0)),
-    ...                  strut=SpringDamperSeries(c=10.0, s_unstretched=1.0, d=4.0, s_damper=start(0.0, fixed=True)))
+    ...                  strut=SpringDamperSeries(c=10.0, s_unstretched=1.0, d=4.0))
     >>> close(run(model, at=[0.0])["bob.a_0[2]"], [-5.0])
     True
 
@@ -212,7 +271,8 @@ class SpringDamperSeries(thermal.PartialConditionalHeatPort, PartialLineForce):
     c: Parameter = Parameter(1.0, unit="N/m", min=0.0, doc="spring constant")
     s_unstretched: Parameter = Parameter(0.0, unit="m", doc="length of the spring without force")
     d: Parameter = Parameter(1.0, unit="N*s/m", min=0.0, doc="damping constant")
-    s_damper: Variable = Variable(unit="m", start=0.0, doc="length of the damper")
+    s_damper_start: Parameter = Parameter(0.0, unit="m", doc="length of the damper at the start")
+    s_damper: Variable = Variable(unit="m", start=s_damper_start, fixed=True, doc="length of the damper")
 
     def equations(self) -> Equations:
         yield from super().equations()

@@ -74,6 +74,14 @@ def turned(a: Frame, b: Frame, R_rel: Rotation, r: Vector | None = None) -> Choi
     )
 
 
+def oriented(a: Frame, b: Frame, R_rel: Rotation) -> Choice:
+    """Frame b is frame a turned by `R_rel`: orientations alone."""
+    back = inverse_rotation(R_rel)
+    return choose(
+        rooted(a.R), equal(b.R, absolute_rotation(a.R, R_rel)), equal(a.R, absolute_rotation(b.R, back))
+    )
+
+
 class FixedRotation(PartialTwoFrames):
     """Massless rigid part: frame b is moved by `r` and turned by a fixed rotation against frame a.
 

@@ -10,11 +10,12 @@ from .parts import PartialTwoFrames
 
 
 class PartialAbsoluteSensor(PartialResolved, partial=True):
-    """Measures at frame_a, without force and torque.
+    """Measures at frame_a, without force and torque; resolved in frame_a by default.
 
     Source: Modelica.Mechanics.MultiBody.Sensors.Internal.PartialAbsoluteSensor.
     """
 
+    resolveInFrame: str = "frame_a"
     frame_a: Frame = Frame()
 
     def equations(self) -> Equations:
@@ -24,7 +25,7 @@ class PartialAbsoluteSensor(PartialResolved, partial=True):
 
 
 class AbsolutePosition(PartialAbsoluteSensor):
-    """Position of frame_a in the world frame (or resolved as `resolveInFrame` says).
+    """Position of frame_a, resolved in frame_a (or as `resolveInFrame` says).
 
     >>> model = assemble("arm.frame_b - sensor.frame_a", "world.frame_b - arm.frame_a", world=ac.inner(World()),
     ...                  arm=FixedTranslation(r=(1.0, 2.0, 3.0)), sensor=AbsolutePosition())
@@ -42,7 +43,7 @@ class AbsolutePosition(PartialAbsoluteSensor):
 
 
 class AbsoluteVelocity(PartialAbsoluteSensor):
-    """Velocity of frame_a in the world frame (or resolved as `resolveInFrame` says).
+    """Velocity of frame_a, resolved in frame_a (or as `resolveInFrame` says).
 
     >>> model = assemble("stone.frame_a - sensor.frame_a", world=ac.inner(World(g=10.0)), sensor=AbsoluteVelocity(),
     ...                  stone=Body(m=2.0))
@@ -60,7 +61,7 @@ class AbsoluteVelocity(PartialAbsoluteSensor):
 
 
 class AbsoluteAngularVelocity(PartialAbsoluteSensor):
-    """Angular velocity of frame_a (resolved as `resolveInFrame` says).
+    """Angular velocity of frame_a, resolved in frame_a (or as `resolveInFrame` says).
 
     >>> body = Body(w_0_fixed=True, w_0_start=(1.0, 0.0, 0.0))
     >>> model = assemble("body.frame_a - sensor.frame_a", world=ac.inner(World()), body=body,

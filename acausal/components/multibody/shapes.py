@@ -32,7 +32,9 @@ class PartialBodyShape(Component, partial=True):
     w_0_fixed: bool = False
     z_0_fixed: bool = False
     enforceStates: bool = False
+    useQuaternions: bool = True
     sequence_start: tuple[float, ...] = (1.0, 2.0, 3.0)
+    sequence_angleStates: tuple[float, ...] = (1.0, 2.0, 3.0)
     frame_a: Frame = Frame()
     frame_b: Frame = Frame()
     r: Vector = Vector(Parameter(unit="m", doc="from frame_a to frame_b, resolved in frame_a"), (0.1, 0.0, 0.0))
@@ -53,6 +55,7 @@ class PartialBodyShape(Component, partial=True):
     body: Body = Body(
         angles_fixed=structural("angles_fixed"), w_0_fixed=structural("w_0_fixed"), z_0_fixed=structural("z_0_fixed"),
         enforceStates=structural("enforceStates"), sequence_start=structural("sequence_start"),
+        useQuaternions=structural("useQuaternions"), sequence_angleStates=structural("sequence_angleStates"),
         angles_start=angles_start, w_0_start=w_0_start, z_0_start=z_0_start,
     )  # fmt: skip
 
@@ -85,6 +88,7 @@ class BodyShape(PartialBodyShape):
     Source: Modelica.Mechanics.MultiBody.Parts.BodyShape.
     """
 
+    r: Vector = Vector(Parameter(unit="m", doc="from frame_a to frame_b, resolved in frame_a"), ZEROS)
     r_CM: Vector = Vector(Parameter(unit="m", doc="from frame_a to the centre of mass, resolved in frame_a"), ZEROS)
     m: Parameter = Parameter(1.0, unit="kg", min=0.0, doc="mass")
     I_11: Parameter = Parameter(0.001, unit="kg*m2", min=0.0, doc="element 1,1 of the inertia tensor at the centre")
@@ -100,9 +104,9 @@ def _outer(e: Vector) -> Matrix:
     return matrix(*([a * b for b in e] for a in e))
 
 
-def _tensor(J: Matrix) -> dict[str, object]:
+def _tensor(I: Matrix) -> dict[str, object]:  # noqa: E741 (its symbol)
     """Elements of an inertia tensor, as `Body` takes them."""
-    rows = J.rows()
+    rows = I.rows()
     return {f"I_{i}{j}": rows[i - 1][j - 1] for i, j in ((1, 1), (2, 2), (3, 3), (2, 1), (3, 1), (3, 2))}
 
 
@@ -143,10 +147,11 @@ class BodyCylinder(PartialBodyShape):
         Parameter(unit="m", doc="from frame_a to the centre of mass"),
         r_shape + unit_vector(lengthDirection) * length / 2,
     )
-    body: Body = _with_starts(
-        r_CM=r_CM, m=m,
-        **_tensor(matrix(*IDENTITY) * I22 + _outer(unit_vector(lengthDirection)) * (I11 - I22)),
-    )  # fmt: skip
+    I: Matrix = Matrix(  # noqa: E741 (Modelica's name)
+        Parameter(unit="kg*m2", doc="inertia tensor at the centre of mass, resolved in frame_a"),
+        matrix(*IDENTITY) * I22 + _outer(unit_vector(lengthDirection)) * (I11 - I22),
+    )
+    body: Body = _with_starts(r_CM=r_CM, m=m, **_tensor(I))
 
 
 class BodyBox(PartialBodyShape):
@@ -192,6 +197,8 @@ class BodyBox(PartialBodyShape):
         Parameter(unit="m", doc="from frame_a to the centre of mass"),
         r_shape + unit_vector(lengthDirection) * length / 2,
     )
-    body: Body = _with_starts(
-        r_CM=r_CM, m=m, **_tensor(T.transpose() @ matrix((J[0], 0.0, 0.0), (0.0, J[1], 0.0), (0.0, 0.0, J[2])) @ T)
+    I: Matrix = Matrix(  # noqa: E741 (Modelica's name)
+        Parameter(unit="kg*m2", doc="inertia tensor at the centre of mass, resolved in frame_a"),
+        T.transpose() @ matrix((J[0], 0.0, 0.0), (0.0, J[1], 0.0), (0.0, 0.0, J[2])) @ T,
     )
+    body: Body = _with_starts(r_CM=r_CM, m=m, **_tensor(I))

@@ -4,7 +4,19 @@ from __future__ import annotations
 
 from acausal import Equations, Parameter, Variable, Vector, branch, cross, der, dot, matrix, norm
 
-from .frames import PARALLEL, TINY, ZEROS, Frame, Rotation, absolute_rotation, equal, resolve1, resolve2, resolve_relative, unit_vector
+from .frames import (
+    PARALLEL,
+    TINY,
+    ZEROS,
+    Frame,
+    Rotation,
+    absolute_rotation,
+    equal,
+    resolve1,
+    resolve2,
+    resolve_relative,
+    unit_vector,
+)
 from .parts import PartialTwoFrames
 
 

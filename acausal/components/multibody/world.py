@@ -10,7 +10,9 @@ from .frames import IDENTITY, ZEROS, Frame, unit_vector
 class World(Component):
     """The inertial frame, and the gravity of all bodies: one `World` in a model, ``world: World = ac.inner(World())``.
 
-    Uniform gravity ``a = g n/|n|``, point gravity ``a = -mu r/|r|^3`` toward the origin, or none.
+    Uniform gravity ``a = g n/|n|``, point gravity ``a = -mu r/|r|^3`` toward the origin, or none. A subclass that
+    overrides `gravity` gives another field (Modelica redeclares `gravityAcceleration`). With `driveTrainMechanics3D`
+    false, `Mounting1D`, `Rotor1D` and `BevelGear1D` exert nothing on the parts that carry them.
 
     >>> body = Body(r_0=start((0.0, 0.0, 5.0), fixed=True), v_0=start((1.0, 0.0, 0.0), fixed=True))
     >>> solution = run(assemble(world=ac.inner(World(g=10.0, n=(0.0, 0.0, -1.0))), body=body), at=[0.5, 1.0])
@@ -21,9 +23,11 @@ class World(Component):
     """
 
     gravityType: str = "UniformGravity"
+    driveTrainMechanics3D: bool = True
     g: Parameter = Parameter(9.80665, unit="m/s2", doc="acceleration of uniform gravity")
     n: Vector = Vector(Parameter(unit="1", doc="direction of uniform gravity, in the world frame"), (0.0, -1.0, 0.0))
     mu: Parameter = Parameter(3.986004418e14, unit="m3/s2", min=0.0, doc="gravity field constant of point gravity")
+    direction: Vector = Vector(Parameter(unit="1", doc="n with length one; n must not be zero"), unit_vector(n))
     frame_b: Frame = Frame()
     uniform: Vector = Vector(Variable(unit="m/s2", doc="acceleration of uniform gravity"))
     point: Variable = Variable(unit="m3/s2", doc="field constant of point gravity")
@@ -42,7 +46,7 @@ class World(Component):
         yield defining(self.frame_b.R.T == IDENTITY)
         yield self.frame_b.R.w == ZEROS
         if self.gravityType == "UniformGravity":
-            yield self.uniform == unit_vector(self.n) * self.g
+            yield self.uniform == self.direction * self.g
         else:
             yield self.uniform == ZEROS
         yield self.point == (self.mu if self.gravityType == "PointGravity" else 0.0)
