@@ -33,13 +33,14 @@ from .hybrid_run import EVENT, HybridRun, Integrate, run_hybrid, warn
 from .hybrid_static import Stretch, static_integrate
 from .hybrid_tangents import Differentiated, run_with_tangents
 from .inputs import DrivenLowered, drive
+from .jit import values_are_known
 from .native_library import RESULTS, Floats
 from .rodas5p import Rodas5P
 from .solution import Solution
 from .start_tangents import StartTangents
 from .started import Given, Seed, Started, Tolerances, given_mask
 from .switch import Switch
-from .traced import Way, simulate_traced
+from .traced import OUTSIDE, Way, simulate_traced
 
 SLACK = 1e-12
 TIME = 1e-14
@@ -302,6 +303,8 @@ def simulate_events(
     dt: Any = None, stepsize_controller: Any = None, **rest: Any,
 ) -> Solution:  # fmt: skip
     """As `acausal.simulation.simulate.simulate`, for a system with events; values are numbers, or differentiated."""
+    if not values_are_known((t0, t1, parameters, initial, inputs, saveat, rtol, atol, dt)):
+        raise SimulationError(OUTSIDE)
     if rest.get("adjoint") is not None:
         raise SimulationError("`adjoint=` has no meaning in a run with events.")
     functions = {k: v for k, v in (inputs or {}).items() if callable(v)}

@@ -21,7 +21,6 @@ import numpy as np
 from jax.custom_derivatives import SymbolicZero
 
 from acausal.errors import AcausalError, SimulationError
-from acausal.lowering.numeric import is_concrete
 
 from .cache import ById
 from .engines import POINTS
@@ -31,6 +30,13 @@ from .native_library import RESULTS, Floats
 from .solution import Solution
 from .started import Given, Seed, Started, Tolerances, parameter_ids
 from .watch import Stop, watch
+
+OUTSIDE = (
+    "The diffrax engine carries out events outside of JAX's programs, where the values are known: jax.grad, jax.jacfwd "
+    "and jax.jacrev of a run with events work, inside of jit or vmap (and so in a calibration or an ensemble) it cannot "
+    "run. The native engine can (engine='native'; it needs a C compiler); and events=False switches events off where "
+    "the model has conditions only."
+)
 
 
 class Model(Protocol):
@@ -133,13 +139,6 @@ def _called(spec: _Spec, moving: tuple[int, ...] | None, shapes: Any, values: An
     host = functools.partial(_host, spec, moving)
     if not spec.way.direct:
         return jax.pure_callback(host, shapes, values, plain, vmap_method="broadcast_all")
-    if not is_concrete((values, plain)):
-        raise SimulationError(
-            "The diffrax engine carries out events outside of JAX's programs, where the values are known: jax.grad, "
-            "jax.jacfwd and jax.jacrev of a run with events work, inside of jit or vmap it cannot run. The native "
-            "engine can (engine='native'; it needs a C compiler); and events=False switches events off where the "
-            "model has conditions only."
-        )
     with ThreadPoolExecutor(max_workers=1) as pool:  # where JAX does not record what it is asked to do
         return pool.submit(host, values, plain).result()
 
