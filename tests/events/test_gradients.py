@@ -257,7 +257,7 @@ def test_diffrax_within_a_compiled_program() -> None:
         with pytest.raises(ac.SimulationError, match=r"inside of jit or vmap .*it cannot run"):
             inside(0.7)
     data = {"t": np.linspace(0.1, 1.0, 10), "h": np.ones(10)}
-    with pytest.raises(ac.SimulationError, match=r"and so in a calibration or an ensemble\) it cannot run"):
+    with pytest.raises(ac.SimulationError, match=r"and so in a calibration or an ensemble\) it cannot run\."):
         ac.calibrate(system, data, free={"e": (0.5, 0.9)}, engine="diffrax")
     jumps = ac.compile(Jump())
 
