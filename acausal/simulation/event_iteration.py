@@ -329,8 +329,8 @@ class EventIteration:
             names = ", ".join(f"`{self.hybrid.flat.name(int(v))}`" for v in lost[:5])
             raise SimulationError(
                 f"At t = {t:.12g} s the equations are singular with the present states of all switches: nothing "
-                f"determines {names}.\nTwo parts of the model fix the same quantity at once, such as two frictions "
-                "that hold the same shaft: give one of them some elasticity, or remove one."
+                f"determines {names}.\nTwo parts of the model fix the same quantity at once, such as two closed "
+                "switches side by side: give one of them some resistance or elasticity, or remove one."
             )
 
     def _propagated(self, t: float, z: Floats, p: Floats) -> tuple[Floats, Floats, list[int]]:

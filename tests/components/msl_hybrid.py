@@ -75,14 +75,24 @@ def lossy_gear(load: float, friction: float = 0.0) -> Component:
     )  # fmt: skip
 
 
-def two_frictions() -> Component:
-    """Rotational.Examples.LossyGearDemo2: a gear that jams on a shaft that sticks."""
+def braked_bearing() -> Component:
+    """A brake and a bearing on one rigid shaft, under a torque that grows with time."""
     return assemble(
-        "sine.y - torque1.tau", "torque1.flange - inertia1.flange_a", "inertia1.flange_b - bearing.flange_a",
-        "bearing.flange_b - gear.flange_a", "gear.flange_b - inertia2.flange_a",
-        gear=rotational.LossyGear(ratio=2.0, lossTable=[[0.0, 0.5, 0.5, 0.1, 0.1]]), inertia1=inertia(),
-        bearing=rotational.BearingFriction(), inertia2=rotational.Inertia(J=1.5), torque1=rotational.Torque(),
-        sine=blocks.Sine(amplitude=10.0, f=1.0),
+        "ramp.y - torque.tau", "torque.flange - rotor.flange_a", "rotor.flange_b - bearing.flange_a",
+        "bearing.flange_b - brake.flange_a", "press.y - brake.f_normalized",
+        ramp=blocks.Slope(slope=1.0), torque=rotational.Torque(), rotor=rotational.Inertia(J=2.0),
+        bearing=rotational.BearingFriction(), brake=rotational.Brake(fn_max=6.0), press=blocks.Constant(k=1.0),
+    )  # fmt: skip
+
+
+def two_switches() -> Component:
+    """Two closed switches without resistance side by side: how they share the current is undetermined."""
+    closed = electrical.IdealClosingSwitch(Ron=0.0)
+    return assemble(
+        "source.p - load.p", "load.n - one.p - two.p", "one.n - two.n - source.n - ground.p",
+        "on.y - one.control - two.control",
+        source=electrical.ConstantVoltage(V=1.0), load=electrical.Resistor(R=1.0), one=closed, two=closed,
+        ground=electrical.Ground(), on=blocks.BooleanConstant(k=True),
     )  # fmt: skip
 
 

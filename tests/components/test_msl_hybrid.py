@@ -110,9 +110,21 @@ def test_lossy_gear(engine: Any, load: float) -> None:
     assert_allclose(w[longest], by_hand.y[0], atol=2e-3)
 
 
-def test_two_frictions_on_one_shaft_are_named() -> None:
-    with pytest.raises(ac.SimulationError, match=r"At t = 0 s the equations are singular(.|\n)*two frictions"):
-        ac.compile(msl.two_frictions()).simulate(1.0)
+def test_what_is_held_twice_without_a_share_is_named() -> None:
+    with pytest.raises(ac.SimulationError, match=r"At t = 0 s the equations are singular(.|\n)*two closed switches"):
+        ac.compile(msl.two_switches()).simulate(1.0)
+
+
+@both
+def test_two_frictions_share_a_load(engine: Any) -> None:
+    """A brake and a bearing hold a shaft up to 3 + 1 N m, each with the same share, and let go together."""
+    t = np.linspace(0.0, 6.0, 121)
+    solution = run(msl.braked_bearing, t, engine)
+    load = np.minimum(t, 4.0)
+    held = t < 3.99
+    assert_allclose(np.asarray(solution["brake.tau"])[held], 0.75 * load[held], rtol=1e-6, atol=1e-9)
+    assert_allclose(np.asarray(solution["bearing.tau"])[held], 0.25 * load[held], rtol=1e-6, atol=1e-9)
+    assert_allclose(np.asarray(solution["rotor.w"]), np.maximum(t - 4.0, 0.0) ** 2 / 2 / 2.0, atol=1e-6)
 
 
 @both

@@ -8,10 +8,8 @@ import acausal as ac
 from acausal import Component, Discrete, Equations, Expr, Input, Parameter, Variable, der, pre, where
 
 from .. import blocks, thermal
+from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, yielding
 from .interfaces import PartialCompliantWithRelativeStates, PartialTwoFlangesAndSupport
-
-FREE, FORWARD, STUCK, BACKWARD, UNKNOWN = 2.0, 1.0, 0.0, -1.0, 3.0
-"""Values of `mode`, as in Modelica.Mechanics.Rotational.Interfaces.PartialFriction."""
 
 
 class PartialFriction(Component, partial=True):
@@ -55,7 +53,7 @@ class PartialFriction(Component, partial=True):
         yield self.locked == where(free | forward | going | backward | coming, 0.0, 1.0)
         sliding = where(going | forward, sa - peak, sa + peak)
         moving = where(going, sa - peak, where(coming, sa + peak, sliding))
-        along = where(self.locked > 0.5, 0.0, where(free, sa, moving))
+        along = where(self.locked > 0.5, yielding(sa, peak), where(free, sa, moving))
         yield self.a_relfric == self.unitAngularAcceleration * along
         slides = (forward | was_free | going) & (w > 0)
         slips = (backward | was_free | coming) & (w < 0)
@@ -247,7 +245,8 @@ class OneWayClutch(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
         yield self.locked == where(held & ~(self.startForward > 0.5), 1.0, 0.0)
         locked = self.locked > 0.5
         yield self.mu == blocks.interpolate(self.speed, speeds, coefficients)
-        yield self.a_rel == self.unitAngularAcceleration * where(locked, 0.0, sa - low)
+        most = high + rest * self.fn_max / self.unitTorque
+        yield self.a_rel == self.unitAngularAcceleration * where(locked, yielding(sa, most), sa - low)
         yield self.tau == where(locked, sa * self.unitTorque, where(free, 0.0, self.mu * self.cgeo * self.fn))
         yield self.stuck == where(locked | (self.w_rel <= 0), 1.0, 0.0)
         yield self.lossPower == where(self.stuck > 0.5, 0.0, self.tau * self.w_rel)

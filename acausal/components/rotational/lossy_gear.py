@@ -8,7 +8,7 @@ import acausal as ac
 from acausal import Discrete, Equations, Expr, Parameter, Variable, der, pre, where
 
 from .. import blocks, thermal
-from .friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN
+from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, yielding
 from .interfaces import PartialTwoFlangesAndSupport
 
 
@@ -101,8 +101,10 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
         going, coming = self.startForward > 0.5, self.startBackward > 0.5
         yield self.locked == where(forward | going | backward | coming, 0.0, 1.0)
         locked, ahead = self.locked > 0.5, going | (forward & ~coming)
+        most = ac.noevent(where(sa > 0, highest, -lowest))
         rolling = where(ahead, forward_most, backward_most)
         yield self.tauLoss == where(locked, sa * self.unitTorque, rolling)
-        yield self.a_a == self.unitAngularAcceleration * where(locked, 0.0, sa - where(ahead, highest, lowest))
+        along = sa - where(ahead, highest, lowest)
+        yield self.a_a == self.unitAngularAcceleration * where(locked, yielding(sa, most), along)
         slides, slips = (forward | going) & (self.w_a > 0), (backward | coming) & (self.w_a < 0)
         yield self.mode == where(slides, FORWARD, where(slips, BACKWARD, STUCK))

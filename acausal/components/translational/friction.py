@@ -8,10 +8,8 @@ import acausal as ac
 from acausal import Component, Discrete, Equations, Expr, Input, Parameter, Variable, der, pre, reinit, when, where
 
 from .. import blocks, thermal
+from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, yielding
 from .interfaces import PartialRigid, PartialTwoFlangesAndSupport
-
-FREE, FORWARD, STUCK, BACKWARD, UNKNOWN = 2.0, 1.0, 0.0, -1.0, 3.0
-"""Values of `mode`, as in Modelica.Mechanics.Translational.Interfaces.PartialFriction."""
 
 
 class PartialFriction(Component, partial=True):
@@ -55,7 +53,7 @@ class PartialFriction(Component, partial=True):
         yield self.locked == where(free | forward | going | backward | coming, 0.0, 1.0)
         sliding = where(going | forward, sa - peak, sa + peak)
         moving = where(going, sa - peak, where(coming, sa + peak, sliding))
-        along = where(self.locked > 0.5, 0.0, where(free, sa, moving))
+        along = where(self.locked > 0.5, yielding(sa, peak), where(free, sa, moving))
         yield self.a_relfric == self.unitAcceleration * along
         slides = self.ahead((forward | was_free | going) & (v > 0))
         slips = self.behind((backward | was_free | coming) & (v < 0))

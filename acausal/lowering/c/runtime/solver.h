@@ -125,9 +125,8 @@ static int ac_factorise(ac_work *w, double d) {
     for (int i = 0; i < AC_N; i++) { /* rows to size one in units of the nominal values */
         double big = 0.0;
         for (int j = 0; j < AC_N; j++) big = ac_max(big, fabs(w->dense[i * AC_N + j]) * ac_nominal[j]);
-        w->y[i] = big > 0.0 ? 1.0 / big : 1.0;
-        for (int j = 0; j < AC_N; j++) w->dense[i * AC_N + j] *= w->y[i] * ac_nominal[j];
-        w->F[i] = w->y[i];
+        w->F[i] = big > 0.0 ? 1.0 / big : 1.0;
+        for (int j = 0; j < AC_N; j++) w->dense[i * AC_N + j] *= w->F[i] * ac_nominal[j];
     }
     return ac_dense_factor(AC_N, w->dense, w->pivot);
 #endif
