@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.sparse import coo_matrix
@@ -44,6 +44,8 @@ class Reduced:
         unknown: mask of the variables (and derivatives) that remain.
         redundant: alias equations that close a cycle.
         rules: derivatives that are known, over representatives.
+        consumed: how often equations have been differentiated in the making of an equation, by its source and row
+            there; absent where never.
     """
 
     flat: FlatModel
@@ -53,6 +55,7 @@ class Reduced:
     unknown: Bools
     redundant: list[Redundant]
     rules: list[Family]
+    consumed: dict[tuple[int, int], int] = field(default_factory=dict[tuple[int, int], int])
 
 
 @dataclass(slots=True)

@@ -21,7 +21,7 @@ from ..language.flat_model import Family, FlatModel, canonical
 from ..language.template import Floats, Ints
 from ..symbolic.collect import collected
 from ..symbolic.differentiate import partial
-from ..symbolic.expr import ONE, ZERO, Expr, add, const, div, mul, neg, par, var
+from ..symbolic.expr import MINUS_ONE, ONE, ZERO, Expr, add, const, div, mul, neg, par, var
 from ..symbolic.gradient import Sampler
 from ..symbolic.traverse import leaves, postorder, substitute
 from .places import context
@@ -32,6 +32,8 @@ Point = tuple[Floats, Floats, float]
 
 ZERO_BELOW = 1e-11
 """A difference is zero if it is this small relative to what it is the difference of, at all points."""
+CHANGED = 1e-6
+"""An expression depends on a variable that makes this difference relative to the size of its terms."""
 LARGEST = 2000
 """Blocks beyond this size are taken as they are."""
 
@@ -44,11 +46,13 @@ class Replacement:
         rows: rows that are replaced.
         family: the equations instead, in the order of `rows`.
         combined: text and place of the equations combined, for the first of `rows`.
+        consumed: how often equations have been differentiated to make the combination.
     """
 
     rows: Ints
     family: Family
     combined: list[tuple[str, str, str]]
+    consumed: int
 
 
 def describe(flat: FlatModel, replacements: list[Replacement]) -> str:
@@ -110,6 +114,7 @@ class _Block:
         self.size = len(rows)
         self.chains: list[list[int]] = []
         self.rows: list[int] = []
+        self.consumed: list[int] = []
         self.shape: list[tuple[Expr, tuple[int, ...], tuple[int, ...]]] = []
         for top in rows.tolist():
             chain: list[int] = []
@@ -123,11 +128,14 @@ class _Block:
                 self.rows.append(row)
                 row = int(before[row])
             self.chains.append(chain)
+            family, k = index.rows.locate(self.rows[chain[-1]])
+            self.consumed.append(index.consumed.get((int(family.source[k]), int(family.ordinal[k])), 0))
         self.variables = list(number)
         self.parameters = list(parameters)
         self.below = [number.get(int(index.parent[v]), -1) for v in self.variables]
         self.signature = (
-            tuple((id(r), s, p) for r, s, p in self.shape), tuple(map(tuple, self.chains)), tuple(self.below)
+            tuple((id(r), s, p) for r, s, p in self.shape), tuple(map(tuple, self.chains)), tuple(self.below),
+            tuple(self.consumed),
         )  # fmt: skip
 
 
@@ -290,18 +298,23 @@ class _Group:
     def _combination(self, vector: dict[int, Expr], lift: int, gone: set[int]) -> Expr | None:
         """``sum u_i f_i`` without the unknowns `gone`, which it does not depend on; None if it cannot be written."""
         terms = [mul(u, self.forms[self.first.chains[i][lift]]) for i, u in vector.items()]
-        size = sum(np.abs(self.value(term)) for term in terms)
-        for anything in (ZERO, ONE):
+        written = [self.value(term) for term in terms]
+        whole, size = sum(written), sum(np.abs(value) for value in written)
+        out: Expr | None = None
+        for anything in (ZERO, ONE, MINUS_ONE):
             try:
                 residual = collected(substitute(add(*terms), {var(z): anything for z in gone}))
             except ZeroDivisionError:
                 continue
             value = self.value(residual)
-            if np.isfinite(value).all():
-                if (np.abs(value) <= ZERO_BELOW * size).all():
-                    raise self._repetition(list(vector))
-                return residual
-        return None
+            if not np.isfinite(value).all():
+                continue
+            if (np.abs(value - whole) > CHANGED * size).any():
+                return None  # a step function: its slope is zero, but it is not constant
+            if (np.abs(value) <= ZERO_BELOW * size).all():
+                raise self._repetition(list(vector))
+            out = residual if out is None else out
+        return out
 
     def _lowered(self, unknowns: Iterable[int], steps: int) -> set[int]:
         """Local numbers of the unknowns, integrated `steps` times."""
@@ -349,7 +362,10 @@ class _Group:
         source = np.array([f.source[k] for f, k in families])
         ordinal = np.array([f.ordinal[k] for f, k in families])
         form, var_rows, par_rows = canonical(residual, self.var_rows, self.par_rows)
-        return Replacement(replaced, Family(form, var_rows, par_rows, source, ordinal), self._texts(involved))
+        family = Family(form, var_rows, par_rows, source, ordinal)
+        first = self.first
+        consumed = max(first.consumed[i] + len(first.chains[i]) for i in involved) - len(first.chains[last])
+        return Replacement(replaced, family, self._texts(involved), consumed)
 
     def _texts(self, involved: Iterable[int]) -> list[tuple[str, str, str]]:
         out: list[tuple[str, str, str]] = []
@@ -373,6 +389,12 @@ class _Group:
         )
 
     def _repetition(self, involved: list[int]) -> StructureError:
+        if len(involved) == 1:
+            return self._error(
+                "is singular for all values: in this equation everything cancels, so that it determines nothing:",
+                involved,
+                "Try: write what is missing in its place.",
+            )
         return self._error(
             "is singular for all values: one of these equations follows from the others:",
             involved,
@@ -381,6 +403,14 @@ class _Group:
         )
 
     def _failure(self, involved: list[int]) -> StructureError:
+        if len(involved) == 1:
+            name = self.index.name(self.first.variables[involved[0]])
+            return self._error(
+                f"is singular for all values: this equation does not determine `{name}`, for which it would have to be "
+                "solved (its slope is zero on either side of its steps):",
+                involved,
+                f"Try: an equation that determines `{name}`, or a condition that leaves it free.",
+            )
         return self._error(
             "cannot be reduced: for all values these equations do not determine their highest derivatives, and every "
             "combination that is free of them has coefficients that hold these derivatives:",

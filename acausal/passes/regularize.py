@@ -96,13 +96,18 @@ def _replaced(current: Reduced, index: IndexReduced, replacements: list[Replacem
         unknown[last] = False
         derivative_of[index.parent[last]] = -1
     flat = extended(current.flat, derivative_of, index.parent)
-    return replace(current, flat=flat, families=families, unknown=unknown)
+    consumed = dict(current.consumed)
+    for replacement in replacements:
+        family = replacement.family
+        keys = zip(family.source.tolist(), family.ordinal.tolist(), strict=True)
+        consumed.update(dict.fromkeys(keys, replacement.consumed))
+    return replace(current, flat=flat, families=families, unknown=unknown, consumed=consumed)
 
 
 # ---- which blocks are singular ------------------------------------------------------------------------------------
 @dataclass(frozen=True, slots=True, eq=False)
 class _Blocks:
-    """Blocks of two or more equations and their unknowns, the highest derivatives.
+    """Blocks of equations and their unknowns, the highest derivatives.
 
     Attributes:
         rows: row numbers, block after block.
@@ -139,10 +144,8 @@ def _blocks(index: IndexReduced) -> _Blocks:
     highest = index.unknown & (index.derivative_of < 0)
     graph = index.rows.incidence(len(highest), highest).select(rows=rows)
     sorted_ = block_lower_triangular(graph, index.top_assignment[rows])
-    size = sorted_.sizes
-    large = np.flatnonzero(size > 1)
-    picked = rows[sorted_.rows[np.isin(sorted_.block_of_row[sorted_.rows], large)]]
-    return _Blocks(picked, np.concatenate([[0], np.cumsum(size[large])]), index.top_assignment[picked])
+    picked = rows[sorted_.rows]
+    return _Blocks(picked, sorted_.ptr, index.top_assignment[picked])
 
 
 def _point(index: IndexReduced, parameters: Parameters, random: np.random.Generator) -> Point:
@@ -219,6 +222,9 @@ def _judge(blocks: _Blocks, alive: Bools, of_row: Ints, i: Ints, j: Ints, v: Flo
         dense = np.zeros((len(chosen), m, m))
         b = of_row[i[mine]]
         np.add.at(dense, (rank[b], i[mine] - blocks.ptr[b], j[mine] - blocks.ptr[b]), v[mine])
+        if m == 1:
+            singular[chosen] = dense[:, 0, 0] == 0
+            continue
         sigma = np.linalg.svd(scaled(dense), compute_uv=False)
         singular[chosen] = sigma[:, -1] <= SINGULAR * sigma[:, 0]
     return singular, finite

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from ..dae.incidence import Incidence
-from ..dae.pantelides import StructurallySingular, pantelides, signature_index
+from ..dae.pantelides import StructurallySingular, pantelides
 from ..errors import StructureError
 from ..language.flat_model import Bools, Family, FlatModel, canonical
 from ..language.template import Ints
@@ -17,6 +17,7 @@ from ..symbolic.expr import ONE, ZERO, Expr, par, var
 from ..symbolic.traverse import substitute
 from .aliases import Reduced
 from .diagnose import singular
+from .differentiation import structural_index
 from .rules import DerivativeRules, apply_rules, derivative_rules
 from .specialize import without_repetition
 
@@ -60,8 +61,9 @@ class IndexReduced:
         unknown: mask of variables and derivatives that remain (extended by those that differentiation brought in).
         row_derivative: for every row the row of its derivative, or -1.
         derivative_of, parent: as in `FlatModel`, extended.
-        index: structural index (Pryce 2001).
+        index: structural index (`structural_index`).
         top_assignment: matched column of every row without derivative, -1 for the others.
+        consumed: as in `Reduced`.
     """
 
     flat: FlatModel
@@ -73,6 +75,7 @@ class IndexReduced:
     index: int
     top_assignment: Ints
     n_differentiated: int
+    consumed: dict[tuple[int, int], int]
 
     @cached_property
     def rows(self) -> Rows:
@@ -154,9 +157,10 @@ def reduce_index(reduced: Reduced) -> IndexReduced:
     order = np.zeros(len(rows), np.int64)
     order[ordinary] = np.asarray(result.equation_order)
     out = IndexReduced(
-        flat, families, unknown, row_derivative, derivative_of, parent, 0, assignment, int((order > 0).sum())
-    )
-    out.index = _index(reduced, order, derivative_of, unknown)
+        flat, families, unknown, row_derivative, derivative_of, parent, 0, assignment, int((order > 0).sum()),
+        reduced.consumed,
+    )  # fmt: skip
+    out.index = structural_index(reduced, out)
     return out
 
 
@@ -177,20 +181,6 @@ def extend(flat: FlatModel, derivative_of: Ints, parent: Ints) -> None:
     flat.nominal = np.pad(flat.nominal, (0, n), constant_values=np.nan)
     flat.select = np.pad(flat.select, (0, n), constant_values=2)
     flat.kind = np.pad(flat.kind, (0, n), constant_values=0)
-
-
-def _index(reduced: Reduced, equation_order: Ints, derivative_of: Ints, unknown: Bools) -> int:
-    base = np.flatnonzero(reduced.unknown & (reduced.flat.parent[: len(reduced.unknown)] < 0))
-    order = np.zeros(len(base), np.int64)
-    at = base.copy()
-    while True:
-        following = derivative_of[at]
-        more = (following >= 0) & unknown[following]
-        if not more.any():
-            break
-        at = np.where(more, following, at)
-        order += more
-    return int(signature_index(equation_order, order)) if len(base) else 0
 
 
 def _differentiated(

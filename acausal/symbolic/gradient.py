@@ -13,12 +13,14 @@ from .operators import OPERATORS
 from .traverse import apply, postorder_missing
 
 LARGEST_EXPONENT = 5.0
+CANCELLED = 1e-13
+"""A sum is zero if it is this small relative to its terms: in general position, what remains is rounding."""
 
 
 class Sampler:
     """Values of expressions in general position: which branch a ``where`` takes is chosen from outside, opaque
-    functions have arbitrary values (their derivatives too), and exponentials are kept to sizes that rank decisions in
-    floating-point numbers can bear.
+    functions have arbitrary values (their derivatives too), exponentials are kept to sizes that rank decisions in
+    floating-point numbers can bear, and sums whose terms cancel are exactly zero.
 
     Args:
         leaf: value of a leaf other than a constant: a number, or an array with one element per point.
@@ -50,8 +52,10 @@ class Sampler:
         if not node.args:
             return self.leaf(node)
         args = [self.memo[id(a)] for a in node.args]
-        if node.op in ("exp", "sinh", "cosh"):
+        if node.op in ("exp", "sinh", "cosh", "tanh"):
             args = [_moderate(args[0])]
+        if node.op == "add":
+            return _total(args)
         if node.op == "where":
             return args[1] if self._choose(node) else args[2]
         if node.op == "div":
@@ -78,7 +82,8 @@ class Sampler:
                     continue
                 for i, slope in self._slopes(node):
                     a = id(node.args[i])
-                    adjoint[a] = adjoint[a] + flow * slope if a in adjoint else flow * slope
+                    part = flow * slope
+                    adjoint[a] = _total([adjoint[a], part]) if a in adjoint else part
         return {node: adjoint.get(id(node), 0.0) for node in order if not node.args and node.op != "const"}
 
     def _slopes(self, node: Expr) -> list[tuple[int, Any]]:
@@ -91,6 +96,14 @@ class Sampler:
             return list(enumerate(self.values(rules)))
         pairs = [(i, rule(*node.args)) for i, rule in enumerate(OPERATORS[node.op].partials) if rule is not None]
         return list(zip((i for i, _ in pairs), self.values([e for _, e in pairs]), strict=True))
+
+
+def _total(terms: Sequence[Any]) -> Any:
+    """The sum of the terms, exactly zero where they cancel."""
+    total, size = terms[0], np.abs(terms[0])
+    for term in terms[1:]:
+        total, size = total + term, size + np.abs(term)
+    return np.where(np.abs(total) <= CANCELLED * size, 0.0, total)
 
 
 def _moderate(exponent: Any) -> Any:

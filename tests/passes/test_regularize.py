@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 import acausal as ac
 from acausal import Array, Component, Connector, Equations, Flow, Parameter, Potential, Variable, connect, der
 from acausal.errors import StructureError
+from acausal.symbolic.equation import Equation
 
 
 class Coupled(Component):
@@ -339,3 +342,148 @@ def test_a_dependence_behind_exponentials_is_found() -> None:
     assert system.report().structural_index == 2
     assert len(system.states) == 1
     assert system.report().invariants == 0
+
+
+class Hidden(Component):
+    """The derivative of x cancels in the first equation, which so is a constraint: x = cos t, index 1."""
+
+    x: Variable = Variable(start=1.0)
+    y: Variable = Variable(start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        dx, dy = der(self.x), der(self.y)
+        yield (dx + dy) * (dx - dy) - dx**2 + dy**2 + self.x == ac.cos(ac.time)
+        yield dy == self.x
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_a_derivative_that_cancels_in_a_single_equation(engine: Any) -> None:
+    system = ac.compile(Hidden())
+    assert system.report().structural_index == 1
+    assert system.states == ("y",)
+    solution = system.simulate(1.0, rtol=1e-9, engine=engine)
+    t = np.asarray(solution.t)
+    assert np.allclose(solution["x"], np.cos(t), atol=1e-12)
+    assert np.allclose(solution["y"], np.sin(t), atol=1e-8)
+
+
+class Ends(Component):
+    """Up to one equation: x decays."""
+
+    x: Variable = Variable(start=1.0)
+    y: Variable = Variable(start=0.0)
+
+    def last(self) -> Equation:
+        raise NotImplementedError
+
+    def equations(self) -> Equations:
+        yield der(self.x) == -self.x
+        yield self.last()
+
+
+def test_a_single_equation_that_says_nothing_is_named() -> None:
+    class Nothing(Ends):
+        def last(self) -> Equation:
+            return (self.x + self.y) ** 2 == self.x**2 + self.y**2 + 2 * self.x * self.y
+
+    with pytest.raises(StructureError, match="everything cancels") as info:
+        ac.compile(Nothing())
+    assert "(x + y)**2" in info.value.equations[0]
+    assert "test_regularize.py" in str(info.value)
+
+
+def test_a_single_equation_that_has_lost_its_unknown_is_named() -> None:
+    class Lost(Ends):
+        def last(self) -> Equation:
+            return (self.x + self.y) ** 2 - ac.exp(-ac.time) == self.x**2 + self.y**2 + 2 * self.x * self.y - self.x
+
+    with pytest.raises(StructureError, match="cannot be paired") as info:
+        ac.compile(Lost())
+    assert "y" in info.value.unknowns
+    assert "(x + y)**2" in str(info.value)
+
+
+def test_an_equation_of_steps_does_not_determine_its_argument() -> None:
+    class Steps(Ends):
+        def last(self) -> Equation:
+            return self.x == ac.sign(self.y)
+
+    with pytest.raises(StructureError, match="does not determine `y`") as info:
+        ac.compile(Steps())
+    assert "sign(y)" in info.value.equations[0]
+
+
+def test_a_saturated_equation_is_not_singular() -> None:
+    """tanh is 1 to rounding nearly everywhere here, and still determines its argument."""
+
+    class Saturated(Ends):
+        def last(self) -> Equation:
+            return 0.5 * self.x == ac.tanh(1e3 * self.y)
+
+    solution = ac.compile(Saturated()).simulate(1.0)
+    assert np.allclose(solution["y"], np.arctanh(0.5 * np.asarray(solution["x"])) / 1e3, atol=1e-6)
+
+
+class Varying(Component):
+    """``x' + eta t y' + (1 + eta) y = cos t``, ``x + eta t y = exp(-t)``: index 2, y = cos t + exp(-t).
+
+    Source: Brenan, Campbell and Petzold (1996), Numerical Solution of Initial-Value Problems in DAEs, section 2.5;
+    backward differences fail on it for eta <= -1/2.
+    """
+
+    eta: Parameter = Parameter(-1.0)
+    x: Variable = Variable(start=1.0)
+    y: Variable = Variable(start=2.0)
+
+    def equations(self) -> Equations:
+        t = ac.time
+        yield der(self.x) + self.eta * t * der(self.y) + (1 + self.eta) * self.y == ac.cos(t)
+        yield self.x + self.eta * t * self.y == ac.exp(-t)
+
+
+@pytest.mark.parametrize("eta", [-2.0, -0.5, 0.0, 1.0])
+def test_the_index_counts_what_combinations_have_differentiated(eta: float) -> None:
+    system = ac.compile(Varying(eta=eta))
+    assert system.report().structural_index == 2
+    solution = system.simulate(1.0)
+    t = np.asarray(solution.t)
+    assert np.allclose(solution["y"], np.cos(t) + np.exp(-t), atol=1e-12)
+
+
+@pytest.mark.parametrize("n", [2, 3, 4, 5])
+def test_index_of_a_chain_of_derivatives(n: int) -> None:
+    """x1 = sin t, x1' = x2, x2' = x3, ...: index n, though the last of them is but a name for a derivative."""
+
+    class Link(Component):
+        x: Variable = Variable()
+
+    class Chain(Component):
+        n: int = 2
+        link: Array[Link] = Array(Link(), "n")
+
+        def equations(self) -> Equations:
+            yield self.link[0].x == ac.sin(ac.time)
+            for k in range(self.n - 1):
+                yield der(self.link[k].x) == self.link[k + 1].x
+
+    system = ac.compile(Chain(n=n))
+    assert system.report().structural_index == n
+    solution = system.simulate(1.0)
+    t = np.asarray(solution.t)
+    assert np.allclose(solution[f"link[{n - 1}].x"], np.sin(t + (n - 1) * np.pi / 2), atol=1e-12)
+
+
+def test_algebraic_variables_beside_a_constraint_do_not_raise_the_index() -> None:
+    class Beside(Component):
+        """``x = sin t``, ``y' = x'``: index 1; z has nothing to do with it."""
+
+        x: Variable = Variable()
+        y: Variable = Variable(start=0.0, fixed=True)
+        z: Variable = Variable()
+
+        def equations(self) -> Equations:
+            yield self.x == ac.sin(ac.time)
+            yield der(self.y) == der(self.x)
+            yield self.z == 2 * ac.cos(ac.time)
+
+    assert ac.compile(Beside()).report().structural_index == 1
