@@ -24,7 +24,8 @@ class Report:
         variables, equations: declared scalar variables, and equations including those of connections.
         aliases: variables eliminated as equal (or zero).
         unknowns: variables and equations that remain.
-        structural_index: 0 = explicit ODE, 1 = algebraic unknowns, 2 and more = hidden constraints (Pryce 2001).
+        structural_index: 0 = explicit ODE, 1 = algebraic unknowns, 2 and more = hidden constraints (Pryce 2001,
+            counting once more only the equations that algebraic variables follow from).
         differentiated: equations that index reduction differentiated.
         states, algebraics, invariants: numbers of states, of algebraic unknowns of the solver, of retained constraints.
         state_names, torn: names of the states and of the algebraic unknowns.
