@@ -1,8 +1,9 @@
-"""What dry friction elements of all kinds of mechanics share: the values of `mode`, and how they share a load."""
+"""What friction elements of all kinds of mechanics have in common."""
 
 from __future__ import annotations
 
-from acausal import Expr
+import acausal as ac
+from acausal import PI, DeclarationError, Expr
 
 FREE, FORWARD, STUCK, BACKWARD, UNKNOWN = 2.0, 1.0, 0.0, -1.0, 3.0
 """Values of `mode`, as in Modelica.Mechanics.Rotational.Interfaces.PartialFriction."""
@@ -25,3 +26,21 @@ def yielding(held: Expr, most: Expr | float) -> Expr:
         most: what it can hold.
     """
     return GIVE * held / (most + LEAST)
+
+
+REGULARIZATIONS = ("Exp", "Sine", "Linear", "CoSine")
+"""Values of `reg`, as in Modelica.Blocks.Types.Regularization."""
+
+
+def regularized_sign(share: Expr, reg: str, owner: str) -> Expr:
+    """The sign of `share`, continuous within -1 ... 1 in the way that `reg` of the component `owner` says."""
+    within = ac.clip(share, -1.0, 1.0)
+    if reg == "Exp":
+        return 2 / (1 + ac.exp(-share / 0.01)) - 1
+    if reg == "Sine":
+        return ac.sin(PI / 2 * within)
+    if reg == "Linear":
+        return within
+    if reg == "CoSine":
+        return ac.sign(within) * (1 - ac.cos(PI / 2 * within))
+    raise DeclarationError(f"{owner}: reg={reg!r} is not one of {', '.join(REGULARIZATIONS)}")

@@ -134,7 +134,7 @@ class Declaration(_Arithmetic):
         doc: str = "",
         start: float | Expr | Declaration | None = None,
         fixed: bool | None = None,
-        nominal: float | None = None,
+        nominal: float | Declaration | None = None,
         min: float | None = None,
         max: float | None = None,
         state_select: StateSelect | Any = "default",
@@ -155,7 +155,7 @@ class Declaration(_Arithmetic):
         self.origin: Origin | None = None
         if isinstance(state_select, str) and state_select not in STATE_SELECT:
             raise DeclarationError(f"state_select={state_select!r} is not one of {', '.join(STATE_SELECT)}")
-        if nominal is not None and not nominal > 0:
+        if isinstance(nominal, (int, float)) and not nominal > 0:
             raise DeclarationError(f"nominal={nominal!r} must be a positive number: it is a scale")
 
     def __set_name__(self, owner: type[Component], name: str) -> None:
@@ -188,7 +188,7 @@ class Variable(Declaration):
         unit: unit string, as in ``kg/s``; equations are checked where units are given.
         start: value at the start, a guess unless `fixed`.
         fixed: whether `start` is an equation of the initialization.
-        nominal: typical magnitude, the scale of the solvers' error control.
+        nominal: typical magnitude, the scale of the solvers' error control, or a parameter (`evaluate=True`) that is.
         min: lower bound (documentation and checks).
         max: upper bound.
         state_select: how much the compiler should want this variable as a state; ``structural("name")`` leaves it to a
@@ -202,7 +202,7 @@ class Variable(Declaration):
         doc: str = "",
         start: float | Expr | Declaration | None = None,
         fixed: bool | None = None,
-        nominal: float | None = None,
+        nominal: float | Declaration | None = None,
         min: float | None = None,
         max: float | None = None,
         state_select: StateSelect | Any = "default",

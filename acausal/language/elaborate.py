@@ -142,7 +142,8 @@ class Elaborator:
                     self._set(cls, template, out, name, value)
                 continue
             select = _state_select(component, declaration)
-            given = Start(declaration.start, declaration.fixed, declaration.nominal, select)
+            nominal = _nominal(component, declaration, mods)
+            given = Start(declaration.start, declaration.fixed, nominal, select)
             self._set(cls, template, out, name, given)
             if name in mods:
                 self._set(cls, template, out, name, mods[name])
@@ -327,6 +328,21 @@ def _state_select(component: Component, declaration: Declaration) -> Any:
     return wish
 
 
+def _nominal(component: Component, declaration: Declaration, mods: dict[str, Any]) -> float | None:
+    """The scale that a declaration states, or the parameter it refers to."""
+    if not isinstance(declaration.nominal, Declaration):
+        return declaration.nominal
+    scale = declaration.nominal
+    value = mods.get(scale.name, scale.default)
+    if not isinstance(value, (int, float)) or not value > 0:
+        cls = type(component)
+        raise DeclarationError(
+            f"`{cls.__name__}.{declaration.name}`: its nominal value `{scale.name}` is {value!r}, which is not a "
+            f"positive number ({cls._source[0]}:{cls._source[1]})"
+        )
+    return float(value)
+
+
 def _plain(cls: type[Component], mods: dict[str, Any]) -> bool:
     """Whether modifications are numbers for own quantities that no expression gives: the template stays the same."""
     for name, value in mods.items():
@@ -339,6 +355,8 @@ def _plain(cls: type[Component], mods: dict[str, Any]) -> bool:
             if isinstance(value.value, (Bound, Expr, Declaration, list)):
                 return False
         elif not isinstance(value, (int, float)):
+            return False
+        elif declaration.evaluate and any(d.nominal is declaration for d in cls._declarations.values()):
             return False
     return True
 

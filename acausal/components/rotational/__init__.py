@@ -11,6 +11,7 @@ from .components import ElastoBacklash as ElastoBacklash
 from .components import ElastoBacklash2 as ElastoBacklash2
 from .components import Fixed as Fixed
 from .components import Inertia as Inertia
+from .components import PartialElastoBacklash as PartialElastoBacklash
 from .components import RelativeStates as RelativeStates
 from .components import Spring as Spring
 from .components import SpringDamper as SpringDamper
@@ -20,6 +21,7 @@ from .friction import Clutch as Clutch
 from .friction import OneWayClutch as OneWayClutch
 from .friction import PartialFriction as PartialFriction
 from .friction import PartialNormalForce as PartialNormalForce
+from .gearbox import Gearbox as Gearbox
 from .gears import IdealGear as IdealGear
 from .gears import IdealGearR2T as IdealGearR2T
 from .gears import IdealPlanetary as IdealPlanetary

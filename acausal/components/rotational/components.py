@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import acausal as ac
-from acausal import Component, Equations, Parameter, Variable, der, where
+from acausal import Component, Equations, Expr, Parameter, Variable, der, where
 
 from .. import thermal
 from .interfaces import Flange, PartialCompliant, PartialCompliantWithRelativeStates, PartialTwoFlanges
@@ -135,7 +135,44 @@ class SpringDamper(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
         yield self.lossPower == self.d * self.w_rel * self.w_rel
 
 
-class ElastoBacklash(thermal.PartialConditionalHeatPort, PartialCompliantWithRelativeStates):
+class PartialElastoBacklash(thermal.PartialConditionalHeatPort, PartialCompliantWithRelativeStates, partial=True):
+    """Spring and damper with a backlash `b`: ``tau_c = c (phi_rel - phi_rel0 -+ b/2)`` beyond it, zero within.
+
+    Subclasses give the torque of the damper.
+
+    Source: Modelica.Mechanics.Rotational.Components.ElastoBacklash.
+    """
+
+    c: Parameter = Parameter(1e5, unit="N*m/rad", min=0.0, doc="spring constant")
+    d: Parameter = Parameter(0.0, unit="N*m*s/rad", min=0.0, doc="damping constant")
+    b: Parameter = Parameter(0.0, unit="rad", min=0.0, doc="total backlash")
+    phi_rel0: Parameter = Parameter(0.0, unit="rad", doc="unstretched angle")
+    tau_c: Variable = Variable(unit="N*m", doc="torque of the spring")
+    tau_d: Variable = Variable(unit="N*m", doc="torque of the damper")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        turned, half = self.phi_rel - self.phi_rel0, self.b / 2
+        beyond = where(self.above, turned - half, where(self.below, turned + half, 0.0))
+        yield self.tau_c == self.c * where(self.none, turned, beyond)
+
+    @property
+    def above(self) -> Expr:
+        """Whether the sides meet in forward direction."""
+        return self.phi_rel - self.phi_rel0 > self.b / 2
+
+    @property
+    def below(self) -> Expr:
+        """Whether the sides meet in backward direction."""
+        return self.phi_rel - self.phi_rel0 < -self.b / 2
+
+    @property
+    def none(self) -> Expr:
+        """Whether there is no backlash at all."""
+        return self.b <= 1e-10
+
+
+class ElastoBacklash(PartialElastoBacklash):
     """Spring and damper with a backlash `b`: no torque within ``|phi_rel - phi_rel0| <= b/2``, never pulling.
 
     Beyond it ``tau_c = c (phi_rel - phi_rel0 -+ b/2)`` and ``tau = tau_c + d w_rel``, where the damping is no larger
@@ -150,26 +187,17 @@ class ElastoBacklash(thermal.PartialConditionalHeatPort, PartialCompliantWithRel
     Source: Modelica.Mechanics.Rotational.Components.ElastoBacklash.
     """
 
-    c: Parameter = Parameter(1e5, unit="N*m/rad", min=0.0, doc="spring constant")
-    d: Parameter = Parameter(0.0, unit="N*m*s/rad", min=0.0, doc="damping constant")
-    b: Parameter = Parameter(0.0, unit="rad", min=0.0, doc="total backlash")
-    phi_rel0: Parameter = Parameter(0.0, unit="rad", doc="unstretched angle")
-    tau_c: Variable = Variable(unit="N*m", doc="torque of the spring")
-    tau_d: Variable = Variable(unit="N*m", doc="torque of the damper")
-
     def equations(self) -> Equations:
         yield from super().equations()
-        turned, half, spring = self.phi_rel - self.phi_rel0, self.b / 2, self.tau_c
-        damping = self.d * self.w_rel
-        above, below = turned > half, turned < -half
-        limited = where(above, ac.clip(damping, -spring, spring), where(below, ac.clip(damping, spring, -spring), 0.0))
-        yield spring == self.c * where(above, turned - half, where(below, turned + half, 0.0))
-        yield self.tau_d == where(self.b <= 1e-10, damping, ac.noevent(limited))
+        spring, damping = self.tau_c, self.d * self.w_rel
+        backward = where(self.below, ac.clip(damping, spring, -spring), 0.0)
+        limited = where(self.above, ac.clip(damping, -spring, spring), backward)
+        yield self.tau_d == where(self.none, damping, ac.noevent(limited))
         yield self.tau == spring + self.tau_d
         yield self.lossPower == self.tau_d * self.w_rel
 
 
-class ElastoBacklash2(thermal.PartialConditionalHeatPort, PartialCompliantWithRelativeStates):
+class ElastoBacklash2(PartialElastoBacklash):
     """Spring and damper with a backlash `b`, whose torque may jump when the sides meet.
 
     No torque within ``|phi_rel - phi_rel0| <= b/2``; beyond it ``tau = c (phi_rel - phi_rel0 -+ b/2) + d w_rel``, as
@@ -185,19 +213,10 @@ class ElastoBacklash2(thermal.PartialConditionalHeatPort, PartialCompliantWithRe
     Source: Modelica.Mechanics.Rotational.Components.ElastoBacklash2.
     """
 
-    c: Parameter = Parameter(1e5, unit="N*m/rad", min=0.0, doc="spring constant")
-    d: Parameter = Parameter(0.0, unit="N*m*s/rad", min=0.0, doc="damping constant")
-    b: Parameter = Parameter(0.0, unit="rad", min=0.0, doc="total backlash")
-    phi_rel0: Parameter = Parameter(0.0, unit="rad", doc="unstretched angle")
-    tau_c: Variable = Variable(unit="N*m", doc="torque of the spring")
-    tau_d: Variable = Variable(unit="N*m", doc="torque of the damper, as if the sides met")
-
     def equations(self) -> Equations:
         yield from super().equations()
-        turned, half, both = self.phi_rel - self.phi_rel0, self.b / 2, self.tau_c + self.tau_d
-        above, below, none = turned > half, turned < -half, self.b <= 1e-10
-        pushes = none | (above & (both > 0)) | (below & (both < 0))
-        yield self.tau_c == self.c * where(none, turned, where(above, turned - half, where(below, turned + half, 0.0)))
+        both = self.tau_c + self.tau_d
+        pushes = self.none | (self.above & (both > 0)) | (self.below & (both < 0))
         yield self.tau_d == self.d * self.w_rel
         yield self.tau == where(pushes, both, 0.0)
         yield self.lossPower == where(pushes, self.tau_d * self.w_rel, 0.0)

@@ -2,7 +2,20 @@
 
 from __future__ import annotations
 
-from acausal import Component, Connector, Equations, Expr, Flow, Output, Potential, Variable, conditional, der
+from acausal import (
+    Component,
+    Connector,
+    Equations,
+    Expr,
+    Flow,
+    Output,
+    Parameter,
+    Potential,
+    Variable,
+    conditional,
+    der,
+    structural,
+)
 
 
 class Flange(Connector):
@@ -41,21 +54,47 @@ class PartialCompliant(PartialTwoFlanges, partial=True):
         yield self.flange_a.tau == -self.tau
 
 
-class PartialCompliantWithRelativeStates(PartialCompliant, partial=True):
+class PartialCompliantWithVelocity(PartialCompliant, partial=True):
     """Compliant element that needs the relative velocity, ``w_rel = d(flange_b.phi)/dt - d(flange_a.phi)/dt``.
 
-    Source: Modelica.Mechanics.Rotational.Interfaces.PartialCompliantWithRelativeStates, with the derivatives taken at
-    the flanges, where they are derivatives of the states of the inertias.
+    The derivatives are taken at the flanges, where they are states of what is connected.
+
+    Source: Modelica.Mechanics.Rotational.Interfaces.PartialCompliant, with the velocity.
     """
 
-    w_rel: Variable = Variable(unit="rad/s", doc="relative angular velocity")
+    w_rel: Variable = Variable(unit="rad/s", start=0.0, doc="relative angular velocity")
 
     def equations(self) -> Equations:
         yield from super().equations()
+        yield from self.velocity()
+
+    def velocity(self) -> Equations:
+        """What gives `w_rel`."""
         yield self.w_rel == der(self.flange_b.phi) - der(self.flange_a.phi)
 
 
-PartialCompliantWithVelocity = PartialCompliantWithRelativeStates
+class PartialCompliantWithRelativeStates(PartialCompliantWithVelocity, partial=True):
+    """Compliant element whose relative angle and velocity ``w_rel = dphi_rel/dt`` are wanted as states.
+
+    They have the size `phi_nominal`, which the error control of long shafts and stiff springs needs. Where an impulse
+    resets one side, the states keep the relative velocity, and the other side moves along. `stateSelect="default"`
+    leaves the choice to the compiler.
+
+    Source: Modelica.Mechanics.Rotational.Interfaces.PartialCompliantWithRelativeStates.
+    """
+
+    stateSelect: str = "prefer"
+    phi_nominal: Parameter = Parameter(1e-4, unit="rad", evaluate=True, doc="typical size of phi_rel")
+    phi_rel: Variable = Variable(
+        unit="rad", start=0.0, state_select=structural("stateSelect"), nominal=phi_nominal,
+        doc="relative angle, flange_b.phi - flange_a.phi",
+    )  # fmt: skip
+    w_rel: Variable = Variable(
+        unit="rad/s", start=0.0, state_select=structural("stateSelect"), doc="relative angular velocity"
+    )
+
+    def velocity(self) -> Equations:
+        yield self.w_rel == der(self.phi_rel)
 
 
 class PartialSupport(Component, partial=True):

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import acausal as ac
-from acausal import PI, DeclarationError, Equations, Expr, Input, Parameter, Variable, der, where
+from acausal import PI, Equations, Input, Parameter, Variable, der, where
 
 from .. import thermal
+from ..friction import regularized_sign
 from .interfaces import PartialOneFlangeAndSupport, PartialTwoFlanges
 
 
@@ -167,10 +168,6 @@ class InverseSpeedDependentTorque(PartialSpeedDependent):
         yield self.tau == self.tau_nominal * self.w_nominal / speed * direction
 
 
-REGULARIZATIONS = ("Exp", "Sine", "Linear", "CoSine")
-"""Values of `reg`, as in Modelica.Blocks.Types.Regularization."""
-
-
 class SignTorque(PartialSpeedDependent):
     """Torque with the sign of the speed, ``tau = tau_nominal sign(w)``, made continuous around ``|w| < w0`` by `reg`.
 
@@ -185,22 +182,9 @@ class SignTorque(PartialSpeedDependent):
     reg: str = "Exp"
     w0: Parameter = Parameter(0.1, unit="rad/s", min=1e-60, doc="speed below which the torque is made continuous")
 
-    def sign(self, share: Expr) -> Expr:
-        """The sign of `share`, continuous within -1 ... 1."""
-        within = ac.clip(share, -1.0, 1.0)
-        if self.reg == "Exp":
-            return 2 / (1 + ac.exp(-share / 0.01)) - 1
-        if self.reg == "Sine":
-            return ac.sin(PI / 2 * within)
-        if self.reg == "Linear":
-            return within
-        if self.reg == "CoSine":
-            return ac.sign(within) * (1 - ac.cos(PI / 2 * within))
-        raise DeclarationError(f"SignTorque: reg={self.reg!r} is not one of {', '.join(REGULARIZATIONS)}")
-
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.tau == self.tau_nominal * self.sign(self.w / self.w0)
+        yield self.tau == self.tau_nominal * regularized_sign(self.w / self.w0, self.reg, "SignTorque")
 
 
 class EddyCurrentTorque(thermal.PartialConditionalHeatPort, PartialOneFlangeAndSupport):

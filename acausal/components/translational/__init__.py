@@ -55,3 +55,5 @@ from .sources import Position as Position
 from .sources import QuadraticSpeedDependentForce as QuadraticSpeedDependentForce
 from .sources import SignForce as SignForce
 from .sources import Speed as Speed
+from .vehicle import RollingResistance as RollingResistance
+from .vehicle import Vehicle as Vehicle

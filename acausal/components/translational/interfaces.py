@@ -14,6 +14,7 @@ from acausal import (
     Variable,
     conditional,
     der,
+    structural,
 )
 
 
@@ -53,21 +54,47 @@ class PartialCompliant(PartialTwoFlanges, partial=True):
         yield self.flange_a.f == -self.f
 
 
-class PartialCompliantWithRelativeStates(PartialCompliant, partial=True):
+class PartialCompliantWithVelocity(PartialCompliant, partial=True):
     """Compliant element that needs the relative velocity, ``v_rel = d(flange_b.s)/dt - d(flange_a.s)/dt``.
 
-    Source: Modelica.Mechanics.Translational.Interfaces.PartialCompliantWithRelativeStates, with the derivatives taken
-    at the flanges, where they are derivatives of the states of the masses.
+    The derivatives are taken at the flanges, where they are states of what is connected.
+
+    Source: Modelica.Mechanics.Translational.Interfaces.PartialCompliant, with the velocity.
     """
 
-    v_rel: Variable = Variable(unit="m/s", doc="relative velocity")
+    v_rel: Variable = Variable(unit="m/s", start=0.0, doc="relative velocity")
 
     def equations(self) -> Equations:
         yield from super().equations()
+        yield from self.velocity()
+
+    def velocity(self) -> Equations:
+        """What gives `v_rel`."""
         yield self.v_rel == der(self.flange_b.s) - der(self.flange_a.s)
 
 
-PartialCompliantWithVelocity = PartialCompliantWithRelativeStates
+class PartialCompliantWithRelativeStates(PartialCompliantWithVelocity, partial=True):
+    """Compliant element whose relative position and velocity ``v_rel = ds_rel/dt`` are wanted as states.
+
+    They have the size `s_nominal`, which the error control of long shafts and stiff springs needs. Where an impulse
+    resets one side, the states keep the relative velocity, and the other side moves along. `stateSelect="default"`
+    leaves the choice to the compiler.
+
+    Source: Modelica.Mechanics.Translational.Interfaces.PartialCompliantWithRelativeStates.
+    """
+
+    stateSelect: str = "prefer"
+    s_nominal: Parameter = Parameter(1e-4, unit="m", evaluate=True, doc="typical size of s_rel")
+    s_rel: Variable = Variable(
+        unit="m", start=0.0, state_select=structural("stateSelect"), nominal=s_nominal,
+        doc="relative position, flange_b.s - flange_a.s",
+    )  # fmt: skip
+    v_rel: Variable = Variable(
+        unit="m/s", start=0.0, state_select=structural("stateSelect"), doc="relative velocity"
+    )
+
+    def velocity(self) -> Equations:
+        yield self.v_rel == der(self.s_rel)
 
 
 class PartialRigid(PartialTwoFlanges, partial=True):

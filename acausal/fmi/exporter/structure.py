@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ...lowering.c.straight import Straight, family_residuals, write_out
 from ...symbolic.expr import Expr
 from ...symbolic.traverse import postorder
@@ -44,7 +46,9 @@ class Dependence:
 
     def _parameters(self, system: System) -> list[int]:
         first = self.n_x + self.n_u + 1
-        bits = [1 << (first + k) for k in range(self.n_par)]
+        built_in = system.stages.flat.evaluated[: self.n_par]  # are in the equations and have no number
+        rank = np.cumsum(~built_in) - 1
+        bits = [0 if fixed else 1 << (first + int(k)) for k, fixed in zip(rank, built_in, strict=True)]
         for assignment in system.program.ordered:
             for target, row in zip(assignment.targets.tolist(), assignment.par_rows.tolist(), strict=True):
                 bits[target] = _union(bits[k] for k in row)

@@ -1,0 +1,66 @@
+"""Relative positions and velocities as states, and their nominal values."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Component
+from acausal.components import rotational, translational
+from acausal.components.examples import assemble, start
+
+
+def pair(shaft: Component) -> Component:
+    """Two masses, one of which is given by the relative position and velocity."""
+    return assemble(
+        "one.flange_b - shaft.flange_a", "shaft.flange_b - two.flange_a", shaft=shaft, two=translational.Mass(m=2.0),
+        one=translational.Mass(m=2.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True)),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(("wish", "wanted"), [("prefer", True), ("default", False)])
+def test_states_are_as_wished(wish: str, wanted: bool) -> None:
+    shaft = translational.SpringDamper(
+        c=8.0, d=0.0, stateSelect=wish, s_rel=start(1.0, fixed=True), v_rel=start(0.0, fixed=True)
+    )
+    system = ac.compile(pair(shaft))
+    assert ("shaft.s_rel" in system.states) == wanted
+    t = np.linspace(0.0, 3.0, 31)
+    solution = system.simulate(3.0, saveat=t, rtol=1e-9)
+    np.testing.assert_allclose(solution["shaft.s_rel"], np.cos(np.sqrt(8.0) * t), atol=1e-7)
+    np.testing.assert_allclose(solution["one.s"] + solution["two.s"], 1.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("scale", [0.0, -1.0])
+def test_nominal_value_is_positive(scale: float) -> None:
+    with pytest.raises(ac.DeclarationError, match=rf"`SpringDamper.phi_rel`.*`phi_nominal` is {scale}"):
+        ac.compile(rotational.SpringDamper(phi_nominal=scale))
+
+
+def test_nominal_value_is_the_scale_of_the_error_control() -> None:
+    steps = []
+    for scale in (1e-8, 1.0):
+        shaft = translational.SpringDamper(c=8.0, d=0.0, s_nominal=scale, s_rel=start(1e-7, fixed=True))
+        steps.append(ac.compile(pair(shaft)).simulate(3.0, rtol=1e-6).stats["steps"])
+    assert steps[0] > steps[1]
+
+
+@pytest.mark.parametrize("version", ["2.0", "3.0"])
+def test_units_have_no_parameters_that_are_built_in(tmp_path: Path, version: Any) -> None:
+    system = ac.compile(pair(translational.SpringDamper(c=8.0, d=1.0)))
+    path = tmp_path / "pair.fmu"
+    ac.fmi.export(system, path, version=version)
+    with zipfile.ZipFile(path) as archive:
+        root = ElementTree.fromstring(archive.read("modelDescription.xml"))
+    references = {v.attrib["name"]: int(v.attrib["valueReference"]) for v in root.iterfind("ModelVariables/*")}
+    assert "shaft.s_nominal" not in references and "shaft.c" in references
+    rows = root.iterfind("ModelStructure//*[@dependencies]")
+    knowns = {int(k) for row in rows for k in row.attrib["dependencies"].split()}
+    numbers = set(references.values()) if version == "3.0" else set(range(1, len(references) + 1))
+    assert knowns and knowns <= numbers
