@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,14 +31,14 @@ def explain_nonfinite(system: System, t: Any, x: Any, w: Any, p: Any) -> str | N
     parameters = np.asarray(p, float)
     with np.errstate(all="ignore"):
         values = np.asarray(system.lowered.observe(t, x, w, p), float)
-        found = [
-            (family, int(row))
-            for family in flat.families
-            for row in np.flatnonzero(_culprits(family, values, parameters, float(t)))[:SHOWN]
-        ]
+        found = _rows(flat, lambda family: _culprits(family, values, parameters, float(t)))
+        head = "It comes from:"
+        if not found:
+            found = _rows(flat, lambda family: _undetermined(family, values, parameters, float(t)))
+            head = "At these values, its equation does not depend on it:"
     if not found:
         return None
-    lines = ["It comes from:"]
+    lines = [head]
     for family, row in found[:3]:
         component, place = flat.equation_place(family, row)
         lines.append(f"    {flat.equation_text(family, row)}    {component or '(model)'}  {place}")
@@ -45,24 +46,41 @@ def explain_nonfinite(system: System, t: Any, x: Any, w: Any, p: Any) -> str | N
     return "\n".join(lines)
 
 
+def _rows(flat: FlatModel, pick: Callable[[Family], Bools]) -> list[tuple[Family, int]]:
+    """The first rows of each family that are picked."""
+    return [(family, int(row)) for family in flat.families for row in np.flatnonzero(pick(family))[:SHOWN]]
+
+
 def _culprits(family: Family, values: Floats, parameters: Floats, t: float) -> Bools:
     """Rows whose only non-finite variable, put to one, leaves the residual non-finite."""
+    one, residual = _filled(family, values, parameters, t, 1.0)
+    return one & ~np.isfinite(residual)
+
+
+def _undetermined(family: Family, values: Floats, parameters: Floats, t: float) -> Bools:
+    """Rows whose only non-finite variable makes no difference to the residual."""
+    one, first = _filled(family, values, parameters, t, 1.0)
+    _, second = _filled(family, values, parameters, t, 2.0)
+    return one & (first == second)
+
+
+def _filled(family: Family, values: Floats, parameters: Floats, t: float, fill: float) -> tuple[Bools, Floats]:
+    """Rows with a single non-finite variable, and their residuals with another value in its place."""
     columns = values[np.minimum(family.var_rows, len(values) - 1)]
     bad = ~np.isfinite(columns)
     some = bad.any(axis=1)
     if not some.any():
-        return np.zeros(len(bad), bool)
+        return np.zeros(len(bad), bool), np.zeros(len(bad))
     first = family.var_rows[np.arange(len(bad)), bad.argmax(axis=1)]
     one = some & (~bad | (family.var_rows == first[:, None])).all(axis=1)
-    filled = np.where(bad, 1.0, columns)
+    filled = np.where(bad, fill, columns)
 
     def leaf(node: Expr) -> Any:
         if node.op == "var":
             return filled[:, node.value]
         return parameters[family.par_rows[:, node.value]] if node.op == "par" else t
 
-    residual = np.broadcast_to(np.asarray(evaluate((family.residual,), leaf, np)[0], float), one.shape)
-    return np.asarray(one & ~np.isfinite(residual))
+    return one, np.broadcast_to(np.asarray(evaluate((family.residual,), leaf, np)[0], float), one.shape)
 
 
 def _given(flat: FlatModel, family: Family, row: int, values: Floats, parameters: Floats) -> str:

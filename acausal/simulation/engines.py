@@ -302,6 +302,7 @@ def finish(
 
     x, w = z[:, : low.n_x], z[:, low.n_x :]
     solution = Solution(system, t, x, w, p, stats=stats, result=result, events=events, observe=observe)
+    solution.strict = throw
     if throw and run.code:
         from .failure import explain
 

@@ -349,6 +349,7 @@ def _finished(
         system, run.save, run.z[:, :n_x], run.z[:, n_x:], vector, stats=stats, result=result,
         events=tuple(run.events), lowered=lowered, slots=run.slots,
     )  # fmt: skip
+    solution.strict = throw
     if throw and run.code:
         last = run.t_end, run.z_end[:n_x], run.z_end[n_x:]
         text = explain(system, lowered, result, stats, last, solution.p, t1, model.how.max_steps)

@@ -154,6 +154,7 @@ def simulate(
     stats |= {"compile_seconds": start_seconds + compile_seconds, "run_seconds": run_seconds}
     stats |= {"solver": _name(method), "t_end": float(last[0])}
     solution = Solution(system, t, x, w, p, stats=stats, result=result, lowered=lowered)
+    solution.strict = throw
     if throw and result not in ("successful", "event_occurred"):
         raise SimulationError(explain(system, lowered, result, stats, last, p, float(t1), settings.max_steps))
     return solution

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from acausal.errors import UnknownNameError, nearest
+from acausal.errors import SimulationError, UnknownNameError, nearest
 from acausal.lowering.lowered import Lowered as CompiledSystem
 
 from .cache import ById, cache_of
@@ -42,7 +42,10 @@ class Solution:
         result: `"successful"`, or what ended the solve early.
         events: the events that occurred, in order (of a traced run they are not known).
         slots: what changes at events, shape (n_t, n_slots), or None where there are no events.
+        strict: whether to refuse values that are not finite; not for runs with `throw=False` and traced ones.
     """
+
+    strict: bool = False
 
     def __init__(
         self,
@@ -102,9 +105,17 @@ class Solution:
 
         Raises:
             UnknownNameError: the model has no such variable; the nearest names are given.
+            SimulationError: a value is not a finite number; names the time and the equation it comes from. The values
+                themselves are to be had by `to_dataframe`, and from a run with `throw=False`.
         """
+        values = self._get(key)
+        if self.strict and not is_traced(values) and values.dtype.kind == "f" and not np.isfinite(values).all():
+            raise SimulationError(self._not_finite(key, values))
+        return values
+
+    def _get(self, key: Any) -> Any:
         if isinstance(key, (list, tuple)):
-            return self._stack([self[k] for k in key])
+            return self._stack([self._get(k) for k in key])
         if isinstance(key, str):
             column = _state_columns(self.system).get(key)
             if column is not None:
@@ -112,6 +123,26 @@ class Solution:
         indices, sign = self._locate(key)
         values = self._values(indices)
         return self._out(values if isinstance(sign, int) and sign == 1 else values * sign)
+
+    def _not_finite(self, key: Any, values: Any) -> str:
+        """The first time at which a variable has no finite value, and the equation that this comes from."""
+        where = ~np.isfinite(values.reshape(len(values), -1)).all(axis=1)
+        k = int(np.argmax(where))
+        name = ", ".join(label(one) for one in key) if isinstance(key, (list, tuple)) else label(key)
+        lines = [f"`{name}` has no finite value at t = {float(self.t[k]):.9g} s."]
+        diagnose = getattr(self.system, "diagnose_nonfinite", None)
+        p = np.asarray(self.p[0] if isinstance(self.p, tuple) else self.p)
+        if diagnose is not None:
+            if self.slots is not None:
+                p = p.copy()
+                p[self.system.hybrid.slots] = self.slots[k]
+            found = diagnose(float(self.t[k]), np.asarray(self.x[k]), np.asarray(self.w[k]), p)
+            lines += [found] if found else []
+        lines.append(
+            "Often: a division by zero, or a square root or logarithm that leaves its domain; a quotient of two "
+            "quantities that are both zero there is not determined by the equations."
+        )
+        return "\n".join(lines)
 
     def __contains__(self, key: Any) -> bool:
         try:
@@ -233,7 +264,7 @@ class Solution:
         units: dict[str, str] = {}
         docs: dict[str, str] = {}
         for key in self.names if names is None else names:
-            values, name = self[key], label(key)
+            values, name = self._get(key), label(key)
             units[name], docs[name] = self.describe(key)
             if values.ndim == 1:
                 columns[name] = values
@@ -249,7 +280,7 @@ class Solution:
 
         data: dict[str, Any] = {}
         for key in self.names if names is None else names:
-            values, name = self[key], label(key)
+            values, name = self._get(key), label(key)
             unit, doc = self.describe(key)
             dims = ("t",) if values.ndim == 1 else ("t", f"{name} index")
             data[name] = (dims, values, {"units": unit, "long_name": doc or name})
@@ -296,7 +327,7 @@ class Solution:
             figure, axes = ax.figure, [ax]
         for axis, (unit, keys) in zip(axes, groups.items(), strict=True):
             for key in keys:
-                values, name = self[key], label(key)
+                values, name = self._get(key), label(key)
                 lines = [name] if values.ndim == 1 else [f"{name}[{i}]" for i in range(values.shape[1])]
                 axis.plot(np.asarray(self.t), values, label=lines if len(lines) > 1 else lines[0], **style)
             axis.set_ylabel(f"[{unit}]" if unit else "")

@@ -10,13 +10,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from ...errors import StructureError
 from ...language.flat_model import Family
 from ...symbolic.expr import ONE, ZERO, Expr, add, const, make, mul, neg, par, power, var
 from ...symbolic.jacobian import Row, sparse_jacobian
 from ...symbolic.traverse import leaves, postorder, postorder_missing, substitute
 
 if TYPE_CHECKING:
-    from ...passes.schedule import Group
+    from ...passes.schedule import Group, Schedule
     from ..lowered import Lowered
 
 TIME_COLUMN = -1
@@ -139,8 +140,27 @@ def write_out(lowered: Lowered) -> Straight:
     straight = Straight(len(known), known, [])
     for group in schedule.groups:
         for row in range(group.size):
-            _block(straight, group, row)
+            try:
+                _block(straight, group, row)
+            except ZeroDivisionError as error:
+                raise StructureError(_vanishing(schedule, group, row)) from error
     return straight
+
+
+def _vanishing(schedule: Schedule, group: Group, row: int) -> str:
+    """The message for a block that divides by what is zero wherever the blocks before it hold."""
+    reduced = schedule.reduced
+    names = ", ".join(f"`{reduced.name(int(v))}`" for v in group.unknowns[row])
+    lines: list[str] = []
+    for number in group.equations[row].tolist():
+        family, k = reduced.rows.locate(number)
+        component, place = reduced.flat.equation_place(family, k)
+        lines.append(f"    {reduced.flat.equation_text(family, k):<48} {component or '(model)'}  {place}")
+    return "\n".join([
+        f"`{reduced.flat.model_name}` is singular: {names} cannot be found, because what it is multiplied by is zero "
+        "wherever the other equations hold:",
+        *lines, "Try: look at the equations of the factors that become zero; is one of them wrong, or one too many?",
+    ])  # fmt: skip
 
 
 def _block(straight: Straight, group: Group, row: int) -> None:

@@ -1,0 +1,89 @@
+"""Values that the equations leave undetermined, or that leave a function's domain: named, never handed over."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Component, Equations, Variable, der
+from acausal.errors import SimulationError, StructureError
+
+ENGINES = pytest.mark.parametrize("engine", ["native", "diffrax"])
+
+
+class Decay(Component):
+    """x = exp(-t), and a logarithm that leaves its domain at t = log 2."""
+
+    x: Variable = Variable(start=1.0, fixed=True)
+    y: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield der(self.x) == -self.x
+        yield self.y == ac.log(self.x - 0.5)
+
+
+@ENGINES
+def test_outside_the_domain(engine: Any) -> None:
+    solution = ac.compile(Decay()).simulate(1.0, saveat=[0.0, 0.5, 1.0], engine=engine)
+    assert np.allclose(solution["x"], np.exp([0.0, -0.5, -1.0]), atol=1e-5)
+    with pytest.raises(SimulationError, match="`y` has no finite value at t = 1 s") as info:
+        solution["y"]
+    assert "y = log(x - 0.5)" in str(info.value)
+    assert "test_not_finite.py" in str(info.value)
+    with pytest.raises(SimulationError, match="`x, y` has no finite value"):
+        solution[["x", "y"]]
+
+
+@ENGINES
+def test_values_as_they_are(engine: Any) -> None:
+    system = ac.compile(Decay())
+    frame = system.simulate(1.0, saveat=[0.0, 1.0], engine=engine).to_dataframe()
+    assert np.isnan(frame["y"].to_numpy()[-1])
+    loose = system.simulate(1.0, saveat=[0.0, 1.0], engine=engine, throw=False)
+    assert np.isnan(loose["y"][-1])
+
+
+@ENGINES
+def test_a_factor_that_passes_zero(engine: Any) -> None:
+    class Pole(Component):
+        x: Variable = Variable(start=0.0, fixed=True)
+        factor: Variable = Variable()
+        y: Variable = Variable()
+
+        def equations(self) -> Equations:
+            yield der(self.x) == ac.cos(ac.time)
+            yield self.factor == ac.time - 0.5
+            yield self.factor * self.y == 2.0
+
+    solution = ac.compile(Pole()).simulate(1.0, saveat=[0.0, 0.5, 1.0], engine=engine)
+    with pytest.raises(SimulationError, match=r"`y` has no finite value at t = 0\.5 s") as info:
+        solution["y"]
+    assert "does not depend on it" in str(info.value)
+    assert "factor*y = 2" in str(info.value)
+
+
+class Vanishing(Component):
+    """The second and third equation leave y = 2 exp(-t), so x = 0, and z, which x multiplies, is free."""
+
+    x: Variable = Variable(start=1.0)
+    y: Variable = Variable(start=1.0)
+    z: Variable = Variable(start=1.0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == -self.x * self.z
+        yield der(self.y) == self.x * self.z - self.y
+        yield self.x + self.y == 2 * ac.exp(-ac.time)
+
+
+def test_singular_only_where_the_other_equations_hold() -> None:
+    system = ac.compile(Vanishing())
+    with pytest.raises(StructureError, match="`z` cannot be found") as info:
+        system.simulate(1.0, engine="native")
+    assert "= x*z" in str(info.value)
+    assert "test_not_finite.py" in str(info.value)
+    with pytest.raises(SimulationError, match="`z` has no finite value") as failed:
+        system.simulate(1.0, engine="diffrax")["z"]
+    assert "x*z" in str(failed.value)
