@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .language.flat_model import Bools, Family, FlatModel
-from .language.template import Floats
+from .language.template import Floats, Ints
 from .symbolic.expr import Expr
 from .symbolic.traverse import evaluate
 
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 SHOWN = 6
 """Quantities named with their values."""
+LISTED = 20
+"""Equations of singular blocks listed."""
 
 
 def explain_nonfinite(system: System, t: Any, x: Any, w: Any, p: Any) -> str | None:
@@ -36,6 +38,9 @@ def explain_nonfinite(system: System, t: Any, x: Any, w: Any, p: Any) -> str | N
         if not found:
             found = _rows(flat, lambda family: _undetermined(family, values, parameters, float(t)))
             head = "At these values, its equation does not depend on it:"
+        if not found:
+            found = _first_block(system, values)
+            head = "At these values, these equations do not determine their unknowns:"
     if not found:
         return None
     lines = [head]
@@ -44,6 +49,37 @@ def explain_nonfinite(system: System, t: Any, x: Any, w: Any, p: Any) -> str | N
         lines.append(f"    {flat.equation_text(family, row)}    {component or '(model)'}  {place}")
         lines.append(f"    with {_given(flat, family, row, values, parameters)}")
     return "\n".join(lines)
+
+
+def block_equations(system: System, unknowns: Ints) -> list[str]:
+    """The equations of the blocks that iterate the algebraic unknowns of these numbers, with their places."""
+    schedule, flat = system.stages.schedule, system.stages.flat
+    lines: dict[str, None] = {}
+    offset = 0
+    for group in schedule.groups:
+        m = len(group.kernel.tears)
+        if not group.kernel.iterates:
+            continue
+        mine = unknowns[(unknowns >= offset) & (unknowns < offset + group.size * m)]
+        offset += group.size * m
+        for block in np.unique((mine - (offset - group.size * m)) // m):
+            for row in group.equations[block].tolist():
+                family, k = schedule.reduced.rows.locate(row)
+                component, place = flat.equation_place(family, k)
+                lines[f"    {flat.equation_text(family, k)}    {component or '(model)'}  {place}"] = None
+    return list(lines)[:LISTED]
+
+
+def _first_block(system: System, values: Floats) -> list[tuple[Family, int]]:
+    """The equations of the first block of the schedule that makes non-finite values of finite ones."""
+    schedule = system.stages.schedule
+    for group in schedule.groups:
+        bad = ~np.isfinite(values[np.minimum(group.var_rows, len(values) - 1)])
+        m = group.unknowns.shape[1]
+        rows = np.flatnonzero(bad[:, :m].any(axis=1) & ~bad[:, m:].any(axis=1))
+        if len(rows):
+            return [schedule.reduced.rows.locate(int(row)) for row in group.equations[rows[0]]]
+    return []
 
 
 def _rows(flat: FlatModel, pick: Callable[[Family], Bools]) -> list[tuple[Family, int]]:

@@ -26,20 +26,19 @@ if TYPE_CHECKING:
 def structural_index(reduced: Reduced, index: IndexReduced) -> int:
     """The largest number of differentiations of an equation, for derivatives of all variables.
 
-    A variable that is but a name for a highest derivative (v in ``x = sin(t)``, ``v = x'``) is algebraic where its
-    equation has been differentiated; elsewhere it counts, as all aliases do, as if it were not written.
+    A variable that is but a name for a highest derivative (v in ``x = sin(t)``, ``v = x'``, or in ``v = x'``,
+    ``v^3 + v = x``) is algebraic, though alias elimination has removed it.
     """
     top = np.flatnonzero(index.top_assignment >= 0)
     if not len(top):
         return 0
     column = index.top_assignment[top]
     count = _differentiations(index, top)
-    deeper = _leads_to(index, top, index.parent[column] < 0)
     named = np.zeros(len(index.unknown), bool)
     declared = np.arange(reduced.flat.n_var)
     stands_for = reduced.representative[declared]
     named[stands_for[(stands_for != declared) & (reduced.sign[declared] != 0)]] = True
-    deeper |= _leads_to(index, top, named[column]) & (count > 0)
+    deeper = _leads_to(index, top, (index.parent[column] < 0) | named[column])
     return int((count + deeper).max())
 
 

@@ -5,10 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
+from ..nonfinite import block_equations
+from ..passes.combine import scaled
 from .lowered import Lowered
+
+LARGEST = 500
+"""Up to so many algebraic unknowns their Jacobian is looked at."""
+SINGULAR = 1e-7
+"""Smallest singular value relative to the largest, after scaling: steps end near a singular point, not at it."""
+SHOWN = 6
+"""Unknowns named."""
 
 _WHAT = {
     "max_steps_reached": "the most steps allowed, {max_steps}, were taken",
@@ -53,6 +63,8 @@ def explain(
             "discontinuity that should be an event, or a variable that matters while it is far below its absolute "
             "tolerance (give it its `nominal`, or a smaller `atol`)."
         )
+    if result in ("dt_min_reached", "singular"):
+        lines += _singular(system, lowered, t, x, w, p)
     if result == "max_steps_reached":
         lines.append("Raise `max_steps`, loosen `rtol`, or look for chattering in this variable.")
     return "\n".join([*lines, counts])
@@ -65,6 +77,23 @@ def _nonfinite(system: Any, dx: Any, r: Any) -> str:
         if bad.size:
             return f"{text.format(names[bad[0]])} is {np.asarray(values)[bad[0]]}"
     return ""
+
+
+def _singular(system: Any, lowered: Lowered, t: float, x: Any, w: Any, p: Any) -> list[str]:
+    """The algebraic unknowns that their equations no longer determine, and these equations."""
+    if not hasattr(system, "stages") or not 0 < w.size <= LARGEST:
+        return []
+    matrix = scaled(np.asarray(jax.jacfwd(lambda w: lowered.derivatives(t, x, w, p)[1])(w), float))
+    if not np.isfinite(matrix).all():
+        return []
+    _, sigma, right = np.linalg.svd(matrix)
+    if sigma[-1] > SINGULAR * max(sigma[0], 1e-300):
+        return []
+    weak = np.abs(right[-1])
+    unknowns = np.flatnonzero(weak > 1e-3 * weak.max())[:SHOWN]
+    names = ", ".join(f"`{system.algebraics[k]}`" for k in unknowns)
+    head = f"The Jacobian is singular there: these equations do not determine {names}:"
+    return [head, *block_equations(system, unknowns)]
 
 
 def _equation(system: Any, t: float, x: Any, w: Any, p: Any) -> list[str]:

@@ -87,3 +87,44 @@ def test_singular_only_where_the_other_equations_hold() -> None:
     with pytest.raises(SimulationError, match="`z` has no finite value") as failed:
         system.simulate(1.0, engine="diffrax")["z"]
     assert "x*z" in str(failed.value)
+
+
+@ENGINES
+def test_a_block_that_is_singular_at_the_start(engine: Any) -> None:
+    class Crossing(Component):
+        """Hessenberg form of index 2 whose ``C B = t cos t + (1 - t^2 / 2) sin t`` is zero at t = 0."""
+
+        x: Variable = Variable(start=1.0)
+        y: Variable = Variable(start=0.0)
+        z: Variable = Variable()
+
+        def equations(self) -> Equations:
+            t = ac.time
+            yield der(self.x) == -self.x + t * self.z + self.y
+            yield der(self.y) == (1 - t**2 / 2) * self.z - self.x
+            yield self.x * ac.cos(t) + self.y * ac.sin(t) == ac.exp(-t)
+
+    with pytest.raises(SimulationError, match="do not determine their unknowns") as info:
+        ac.compile(Crossing()).simulate(1.0, engine=engine)
+    assert "der(x) + x = time*z + y" in str(info.value)
+    assert "test_not_finite.py" in str(info.value)
+
+
+@ENGINES
+def test_iterated_equations_that_are_singular_at_a_point(engine: Any) -> None:
+    class Weak(Component):
+        """At x = 0 the second equation says nothing about y and z."""
+
+        x: Variable = Variable(start=0.0, fixed=True)
+        y: Variable = Variable(start=0.5)
+        z: Variable = Variable(start=0.5)
+
+        def equations(self) -> Equations:
+            yield der(self.x) == 0
+            yield self.x * (self.y**3 + self.y) + self.x**2 * self.z == ac.sin(self.x)
+            yield self.y + self.z**3 == 1
+
+    with pytest.raises(SimulationError, match="The Jacobian is singular there") as info:
+        ac.compile(Weak()).simulate(1.0, engine=engine)
+    assert "= sin(x)" in str(info.value)
+    assert "test_not_finite.py" in str(info.value)

@@ -487,3 +487,17 @@ def test_algebraic_variables_beside_a_constraint_do_not_raise_the_index() -> Non
             yield self.z == 2 * ac.cos(ac.time)
 
     assert ac.compile(Beside()).report().structural_index == 1
+
+
+def test_a_name_for_a_derivative_is_an_algebraic_variable() -> None:
+    class Semi(Component):
+        """``x' = z``, ``z^3 + z = -x``: semi-explicit, of index 1, whatever alias elimination makes of it."""
+
+        x: Variable = Variable(start=1.0, fixed=True)
+        z: Variable = Variable(start=-0.5)
+
+        def equations(self) -> Equations:
+            yield der(self.x) == self.z
+            yield self.z**3 + self.z == -self.x
+
+    assert ac.compile(Semi()).report().structural_index == 1

@@ -157,8 +157,8 @@ def _vanishing(schedule: Schedule, group: Group, row: int) -> str:
         component, place = reduced.flat.equation_place(family, k)
         lines.append(f"    {reduced.flat.equation_text(family, k):<48} {component or '(model)'}  {place}")
     return "\n".join([
-        f"`{reduced.flat.model_name}` is singular: {names} cannot be found, because what it is multiplied by is zero "
-        "wherever the other equations hold:",
+        f"`{reduced.flat.model_name}` is singular: {names} cannot be found from these equations, whose factors are "
+        "zero wherever the other equations hold:",
         *lines, "Try: look at the equations of the factors that become zero; is one of them wrong, or one too many?",
     ])  # fmt: skip
 

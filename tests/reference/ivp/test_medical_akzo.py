@@ -48,7 +48,7 @@ class MedicalAkzoNobel(Component):
 
 @pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_six_digits(engine: Any) -> None:
-    """The largest of the published components at t = 20, here from SciPy's Radau at rtol 1e-9, which they agree with."""
+    """Some of the components that the source publishes at t = 20; the values are from SciPy's Radau at rtol 1e-9."""
     system = ac.compile(MedicalAkzoNobel())
     assert system.report().structural_index == 1  # the feed is an unknown of its own; without it, 0
     places = {f"cell[{k}].place": (k + 1) / N for k in range(N)}
