@@ -13,6 +13,7 @@ from typing import Any
 
 from acausal import (
     Connector,
+    DeclarationError,
     Equations,
     Flow,
     Matrix,
@@ -161,14 +162,34 @@ def axis_rotation(axis: int, phi: Any) -> Matrix:
     return matrix((c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0))
 
 
+def coordinate_axis(axis: int) -> Vector:
+    """Unit vector along coordinate axis 1, 2 or 3."""
+    return vector(*(1.0 if i == axis else 0.0 for i in (1, 2, 3)))
+
+
+def checked_sequence(sequence: Sequence[float], *, all_orientations: bool) -> tuple[int, ...]:
+    """Numbers of the three axes of a sequence of rotations; for all orientations, neighbours have to differ.
+
+    Raises:
+        DeclarationError: they are something else.
+    """
+    axes = tuple(int(axis) for axis in sequence)
+    if len(axes) != 3 or not {*axes} <= {1, 2, 3}:
+        raise DeclarationError(f"a rotation sequence is three axes, each 1, 2 or 3, not {tuple(sequence)}")
+    if all_orientations and (axes[0] == axes[1] or axes[1] == axes[2]):
+        raise DeclarationError(f"the rotation sequence {axes} does not give all orientations: neighbours have to differ")
+    return axes
+
+
 def axes_rotations(sequence: Sequence[float], angles: Vector, rates: Vector | None = None) -> Rotation:
     """Rotations one after the other about the (turned) axes numbered in `sequence`, as Cardan or Euler angles are."""
-    first, second, third = (axis_rotation(int(axis), phi) for axis, phi in zip(sequence, angles, strict=True))
+    axes = checked_sequence(sequence, all_orientations=rates is not None)
+    first, second, third = (axis_rotation(axis, phi) for axis, phi in zip(axes, angles, strict=True))
     T = third @ (second @ first)
     if rates is None:
         return Rotation(T, vector(*ZEROS))
-    axes = [vector(*(1.0 if i == int(axis) else 0.0 for i in (1, 2, 3))) for axis in sequence]
-    w = axes[2] * rates[2] + third @ (axes[1] * rates[1]) + third @ (second @ (axes[0] * rates[0]))
+    e = [coordinate_axis(axis) for axis in axes]
+    w = e[2] * rates[2] + third @ (e[1] * rates[1]) + third @ (second @ (e[0] * rates[0]))
     return Rotation(T, w)
 
 
@@ -178,7 +199,7 @@ def rotation_angles(T: Matrix, sequence: Sequence[float], guess: Any) -> Vector:
     Of both solutions, the one whose first angle is nearer to `guess`. The third axis is across the turned second one,
     which gives the first angle; where the first axis is along the third, the angles are not determined.
     """
-    first, second, third = (vector(*(1.0 if i == int(axis) else 0.0 for i in (1, 2, 3))) for axis in sequence)
+    first, second, third = map(coordinate_axis, checked_sequence(sequence, all_orientations=True))
     axis = T.transpose() @ third
     a, b = dot(second, axis), dot(cross(first, second), axis)
     one, other = atan2(a, -b), atan2(-a, b)

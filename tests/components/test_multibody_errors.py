@@ -1,0 +1,113 @@
+"""What is degenerate in 3-D mechanics is an error that names it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Component, inner, start
+from acausal.components import multibody as mb
+from acausal.components.examples import assemble
+
+ZERO = (0.0, 0.0, 0.0)
+
+
+def pendulum(joint: Component, body: Component | None = None) -> Component:
+    return assemble(
+        "world.frame_b - joint.frame_a", "joint.frame_b - body.frame_a", world=inner(mb.World(g=10.0)), joint=joint,
+        body=body or mb.Body(m=1.0, r_CM=(1.0, 0.0, 0.0)),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("joint", [
+    mb.Revolute(n=ZERO), mb.Prismatic(n=ZERO), mb.Cylindrical(n=ZERO), mb.Universal(n_a=ZERO), mb.Planar(n=ZERO),
+    mb.Planar(n_x=(0.0, 0.0, 2.0)), mb.FixedRotation(n=ZERO, angle=30.0), mb.RevolutePlanarLoopConstraint(n=ZERO),
+    mb.constraints.Revolute(n=ZERO), mb.constraints.Universal(n_b=ZERO),
+    mb.FixedRotation(rotationType="TwoAxesVectors", n_x=ZERO),
+], ids=lambda j: type(j).__name__)  # fmt: skip
+def test_an_axis_without_length(joint: Component) -> None:
+    """Also where it follows from two directions that are parallel."""
+    with pytest.raises(ac.DeclarationError, match=r"with the values joint\.\S+ = 0, .* divides by zero"):
+        ac.compile(pendulum(joint))
+
+
+@pytest.mark.parametrize("rod", [
+    mb.UniversalSpherical(n1_a=(1.0, 0.0, 0.0), rRod_ia=(2.0, 0.0, 0.0)),
+    mb.JointUPS(n1_a=(0.0, 3.0, 0.0), nAxis_ia=(0.0, -1.0, 0.0)),
+], ids=lambda r: type(r).__name__)  # fmt: skip
+def test_a_rod_along_the_first_axis_of_its_universal_joint(rod: Component) -> None:
+    model = pendulum(rod, mb.PointMass(r_0=start((1.0, 0.0, 0.0))))
+    with pytest.raises(ac.DeclarationError, match=r"`joint.slant` .*= 0 lies outside.* must not be parallel"):
+        ac.compile(model).simulate(1.0)
+
+
+def test_a_rod_without_length() -> None:
+    with pytest.raises(ac.DeclarationError, match=r"`SphericalSpherical.rodLength` = 0.0 lies outside its bounds"):
+        mb.SphericalSpherical(rodLength=0.0)
+    model = pendulum(mb.UniversalSpherical(rRod_ia=ZERO), mb.PointMass(r_0=start((1.0, 0.0, 0.0))))
+    with pytest.raises(ac.InitializationError, match=r"`joint.slant` .*angle between n1_a and rRod_ia"):
+        ac.compile(model).simulate(1.0)
+
+
+@pytest.mark.parametrize("body", [
+    mb.BodyCylinder(r=ZERO), mb.BodyBox(r=ZERO), mb.BodyBox(lengthDirection=ZERO)
+], ids=lambda b: type(b).__name__)  # fmt: skip
+def test_a_shape_without_direction(body: Component) -> None:
+    with pytest.raises(ac.InitializationError, match=r"no value \(or NaN\).*\n.*`body\."):
+        ac.compile(pendulum(mb.Revolute(), body)).simulate(1.0)
+
+
+def test_gravity_without_direction() -> None:
+    model = assemble(world=inner(mb.World(n=ZERO)), body=mb.Body())
+    with pytest.raises(ac.InitializationError, match=r"`world\.direction\[1\]` .*n must not be zero"):
+        ac.compile(model).simulate(1.0)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize(("model", "named"), [
+    (pendulum(mb.Revolute(), mb.Body(m=0.0, I_11=0.0, I_22=0.0, I_33=0.0)), r"der\(joint\.w\)"),
+    (assemble(world=inner(mb.World()), body=mb.Body(m=0.0)), r"der\(body\.v_0\[1\]\)"),
+    (assemble(world=inner(mb.World(gravityType="PointGravity")), body=mb.Body()), r"der\(body\.v_0\[1\]\)"),
+], ids=["pendulum", "free body", "at the centre of gravity"])  # fmt: skip
+def test_what_moves_without_mass(engine: Any, model: Component, named: str) -> None:
+    with pytest.raises(ac.SimulationError, match=named):
+        ac.compile(model).simulate(1.0, engine=engine)
+
+
+def test_sequences_of_axes() -> None:
+    bend = mb.FixedRotation(rotationType="PlanarRotationSequence", sequence=(1.0, 5.0, 2.0), angles=(1.0, 2.0, 3.0))
+    with pytest.raises(ac.DeclarationError, match=r"three axes, each 1, 2 or 3, not \(1.0, 5.0, 2.0\)"):
+        ac.compile(pendulum(bend))
+    turned = mb.Body(useQuaternions=False, sequence_angleStates=(3.0, 3.0, 1.0))
+    with pytest.raises(ac.DeclarationError, match=r"\(3, 3, 1\) does not give all orientations"):
+        ac.compile(assemble(world=inner(mb.World()), body=turned))
+
+
+def test_a_loop_that_cannot_be_closed() -> None:
+    """The rod is too short."""
+    model = assemble(
+        "world.frame_b - crank.frame_a", "crank.frame_b - arm.frame_a", "arm.frame_b - loop.frame_a",
+        "world.frame_b - base.frame_a", "base.frame_b - loop.frame_b", world=inner(mb.World()),
+        crank=mb.Revolute(phi=start(0.5, fixed=True), w=start(1.0, fixed=True)), body=mb.Body(),
+        arm=mb.BodyShape(r=(0.0, 1.0, 0.0)), base=mb.FixedTranslation(r=(9.0, 0.0, 0.0)),
+        loop=mb.JointRRR(rRod1_ia=(2.0, 0.0, 0.0), rRod2_ib=(0.0, 1.0, 0.0)),
+    )  # fmt: skip
+    with pytest.raises(ac.AcausalError, match=r"loop\.jointUSR\.revolute"):
+        ac.compile(model).simulate(1.0)
+
+
+@pytest.mark.parametrize("sequence", [(1, 2, 3), (3, 2, 1), (3, 1, 3), (2, 3, 1), (1, 2, 1)])
+def test_angles_that_are_measured_are_those_that_were_given(sequence: tuple[int, ...]) -> None:
+    """The sensor inverts a sequence of rotations, Cardan's and Euler's."""
+    given = np.array([0.4, 0.7, -0.3])
+    bend = mb.FixedRotation(
+        rotationType="PlanarRotationSequence", sequence=sequence, angles=tuple(np.rad2deg(given).tolist())
+    )
+    model = assemble(
+        "world.frame_b - bend.frame_a", "bend.frame_b - sensor.frame_a", world=inner(mb.World()), bend=bend,
+        sensor=mb.AbsoluteAngles(sequence=sequence),
+    )  # fmt: skip
+    np.testing.assert_allclose(ac.compile(model).simulate(1.0, saveat=[1.0])["sensor.angles"][0], given, atol=1e-12)
