@@ -177,7 +177,7 @@ def checked_sequence(sequence: Sequence[float], *, all_orientations: bool) -> tu
     if len(axes) != 3 or not {*axes} <= {1, 2, 3}:
         raise DeclarationError(f"a rotation sequence is three axes, each 1, 2 or 3, not {tuple(sequence)}")
     if all_orientations and (axes[0] == axes[1] or axes[1] == axes[2]):
-        raise DeclarationError(f"the rotation sequence {axes} does not give all orientations: neighbours have to differ")
+        raise DeclarationError(f"the rotation sequence {axes} does not give all orientations: neighbours must differ")
     return axes
 
 
