@@ -164,7 +164,8 @@ static int ac_land(ac_work *w, double t, double h, double s, double *step) {
     return 0;
 }
 
-/* Shortens the step that w holds to the first switch in it. 1: it now ends there; 0: nothing switches; -1: failure.
+/* Shortens the step that w holds to the first switch in it. 1: it now ends there; 0: nothing switches; -1: failure; 2: it
+   is too long for its dense output, which switches where steps do not.
    In the end w has the stages and factors of the step of size *step, and z1 (consistent) at its end. What is a switch on
    the dense output only, by rounding, gets some slack. */
 static int ac_to_switch(ac_work *w, double t, double *step) {
@@ -187,7 +188,7 @@ static int ac_to_switch(ac_work *w, double t, double *step) {
         *step = h;
         if (ac_again(w, t, h)) return -1;
     }
-    return 0;
+    return 2;
 }
 
 /* After a step whose end has the values g2: tells what has switched, or goes on from there. */

@@ -83,6 +83,11 @@ static AC_UNUSED int ac_integrate(ac_problem *q, ac_work *w, ac_control *k, void
 #if AC_NR > 0
         if (q->located) event = ac_to_switch(w, t, &step);
         if (event < 0) return AC_SINGULAR;
+        if (event > 1 && k->size > 1e-8 * fabs(q->t1 - t) && k->size > 1e-12 * fabs(t)) {
+            ac_reject(q, k, 0.5 * k->size);
+            continue;
+        }
+        if (event > 1) event = 0;
 #endif
 #ifdef AC_TANGENTS
         if (tangents) ac_step_tangent(w, tangents, t, step);
