@@ -97,3 +97,24 @@ def test_times_within_a_swing_that_the_states_do_not_feel() -> None:
     for engine, t1 in (("native", 2 * np.pi * turns), ("diffrax", 2 * np.pi * 20)):
         solution = ac.compile(Counting()).simulate(t1, engine=engine, saveat=2)
         assert solution["n"][-1] == solution["m"][-1] == round(t1 / (2 * np.pi))
+
+
+class Wave(ac.Component):
+    """A nonlinear conductor on a source that swings several times between two outputs."""
+
+    y: ac.Variable = ac.Variable()
+    n: ac.Discrete = ac.Discrete()
+
+    def equations(self) -> ac.Equations:
+        yield self.y + 0.1 * self.y**3 == ac.sin(2 * ac.PI * ac.time)
+        yield ac.when(self.y > 0.5, {self.n: ac.pre(self.n) + 1})
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_without_states_no_switch_is_missed_between_two_outputs(engine: Any) -> None:
+    """y passes 1/2 where the sine is 1/2 + 0.1/8, twice in a period."""
+    solution = ac.compile(Wave()).simulate(3.0, saveat=2, engine=engine)
+    up = np.arcsin(0.5 + 0.1 / 8) / (2 * np.pi)
+    wanted = np.sort([k + at for k in range(3) for at in (up, 0.5 - up)])
+    np.testing.assert_allclose([event.t for event in solution.events], wanted, atol=1e-8)
+    assert solution["n"][-1] == 3.0
