@@ -10,26 +10,11 @@ from typing import Any
 from unittest import mock
 
 from acausal import Component, Connector, System
-from acausal.components import (
-    blocks,
-    bondgraph,
-    electrical,
-    examples,
-    hydraulic,
-    multibody,
-    planar,
-    rotational,
-    thermal,
-    translational,
-)
+from acausal.components import examples
 
-from .test_library import is_partial, public_classes
+from .test_library import MODULES, is_partial, public_classes
 
-PACKAGES: dict[str, ModuleType] = {
-    "blocks": blocks, "electrical": electrical, "rotational": rotational, "thermal": thermal,
-    "translational": translational, "bondgraph": bondgraph, "planar": planar, "hydraulic": hydraulic,
-    "multibody": multibody,
-}  # fmt: skip
+PACKAGES: dict[str, ModuleType] = {m.__name__.split(".")[2]: m for m in MODULES if m.__name__.count(".") == 2}
 
 
 def package_of(cls: type[Component]) -> str:

@@ -106,49 +106,49 @@ def free_body() -> Component:
     )  # fmt: skip
 
 
+CRANK = (
+    "world.frame_b - bearing.frame_a - cylPosition.frame_a", "crank2.frame_a - crank1.frame_b",
+    "bearing.frame_b - crank1.frame_a", "crank3.frame_b - crank4.frame_a", "inertia.flange_b - bearing.axis",
+    "crank2.frame_b - crank3.frame_a - mid.frame_a", "cylPosition.frame_b - cylinder.frame_a",
+)  # fmt: skip
+"""Connections that both engines have."""
+
+
+def crank() -> dict[str, Component]:
+    """Parts that both engines have."""
+    return {
+        "world": inner(multibody.World()), "piston": multibody.BodyCylinder(diameter=0.1, r=(0.0, -0.1, 0.0)),
+        "connectingRod": multibody.BodyBox(
+            widthDirection=(1.0, 0.0, 0.0), width=0.02, height=0.06, r=(0.0, -0.2, 0.0)
+        ),
+        "bearing": multibody.Revolute(useAxisFlange=True, n=(1.0, 0.0, 0.0)),
+        "inertia": rotational.Inertia(J=1.0, w=start(10.0, fixed=True), phi=start(0.0, fixed=True)),
+        "crank1": multibody.BodyCylinder(diameter=0.05, r=(0.1, 0.0, 0.0)),
+        "crank2": multibody.BodyBox(height=0.05, widthDirection=(1.0, 0.0, 0.0), width=0.02, r=(0.0, 0.1, 0.0)),
+        "crank3": multibody.BodyCylinder(r=(0.1, 0.0, 0.0), diameter=0.03),
+        "crank4": multibody.BodyBox(height=0.05, widthDirection=(1.0, 0.0, 0.0), width=0.02, r=(0.0, -0.1, 0.0)),
+        "mid": multibody.FixedTranslation(r=(0.05, 0.0, 0.0)),
+        "cylPosition": multibody.FixedTranslation(r=(0.15, 0.45, 0.0)), "b1": multibody.Revolute(n=(1.0, 0.0, 0.0)),
+        "b2": multibody.RevolutePlanarLoopConstraint(n=(1.0, 0.0, 0.0)),
+    }  # fmt: skip
+
+
 def engine1a() -> Component:
     """MultiBody.Examples.Loops.Engine1a."""
     return assemble(
-        "world.frame_b - bearing.frame_a - cylPosition.frame_a", "crank2.frame_a - crank1.frame_b",
-        "bearing.frame_b - crank1.frame_a", "crank3.frame_b - crank4.frame_a", "inertia.flange_b - bearing.axis",
-        "crank2.frame_b - crank3.frame_a - mid.frame_a", "cylPosition.frame_b - cylinder.frame_a",
-        "b2.frame_a - mid.frame_b", "b2.frame_b - connectingRod.frame_b", "connectingRod.frame_a - b1.frame_b",
-        "b1.frame_a - piston.frame_b", "cylinder.frame_b - piston.frame_a",
-        world=inner(multibody.World()), piston=multibody.BodyCylinder(diameter=0.1, r=(0.0, -0.1, 0.0)),
-        connectingRod=multibody.BodyBox(widthDirection=(1.0, 0.0, 0.0), width=0.02, height=0.06, r=(0.0, -0.2, 0.0)),
-        bearing=multibody.Revolute(useAxisFlange=True, n=(1.0, 0.0, 0.0)),
-        inertia=rotational.Inertia(J=1.0, w=start(10.0, fixed=True), phi=start(0.0, fixed=True)),
-        crank1=multibody.BodyCylinder(diameter=0.05, r=(0.1, 0.0, 0.0)),
-        crank2=multibody.BodyBox(height=0.05, widthDirection=(1.0, 0.0, 0.0), width=0.02, r=(0.0, 0.1, 0.0)),
-        crank3=multibody.BodyCylinder(r=(0.1, 0.0, 0.0), diameter=0.03),
-        crank4=multibody.BodyBox(height=0.05, widthDirection=(1.0, 0.0, 0.0), width=0.02, r=(0.0, -0.1, 0.0)),
-        mid=multibody.FixedTranslation(r=(0.05, 0.0, 0.0)),
-        cylPosition=multibody.FixedTranslation(r=(0.15, 0.45, 0.0)), b1=multibody.Revolute(n=(1.0, 0.0, 0.0)),
-        b2=multibody.RevolutePlanarLoopConstraint(n=(1.0, 0.0, 0.0)),
-        cylinder=multibody.Prismatic(n=(0.0, -1.0, 0.0), s=start(0.15)),
+        *CRANK, "b2.frame_a - mid.frame_b", "b2.frame_b - connectingRod.frame_b",
+        "connectingRod.frame_a - b1.frame_b", "b1.frame_a - piston.frame_b", "cylinder.frame_b - piston.frame_a",
+        **crank(), cylinder=multibody.Prismatic(n=(0.0, -1.0, 0.0), s=start(0.15)),
     )  # fmt: skip
 
 
 def engine1b() -> Component:
     """MultiBody.Examples.Loops.Engine1b."""
     return assemble(
-        "world.frame_b - bearing.frame_a - cylPosition.frame_a", "crank2.frame_a - crank1.frame_b",
-        "bearing.frame_b - crank1.frame_a", "crank3.frame_b - crank4.frame_a", "inertia.flange_b - bearing.axis",
-        "crank2.frame_b - crank3.frame_a - mid.frame_a", "cylinder.frame_b - rod3.frame_a - piston.frame_a",
-        "cylPosition.frame_b - cylinder.frame_a", "gasForce.flange_a - cylinder.support",
+        *CRANK, "cylinder.frame_b - rod3.frame_a - piston.frame_a", "gasForce.flange_a - cylinder.support",
         "gasForce.flange_b - cylinder.axis", "rod3.frame_b - b1.frame_a", "mid.frame_b - b2.frame_a",
         "b2.frame_b - connectingRod.frame_b - rod1.frame_b", "b1.frame_b - rod1.frame_a",
-        world=inner(multibody.World()), piston=multibody.BodyCylinder(diameter=0.1, r=(0.0, -0.1, 0.0)),
-        connectingRod=multibody.BodyBox(widthDirection=(1.0, 0.0, 0.0), width=0.02, height=0.06, r=(0.0, -0.2, 0.0)),
-        bearing=multibody.Revolute(useAxisFlange=True, n=(1.0, 0.0, 0.0)),
-        inertia=rotational.Inertia(J=1.0, w=start(10.0, fixed=True), phi=start(0.0, fixed=True)),
-        crank1=multibody.BodyCylinder(diameter=0.05, r=(0.1, 0.0, 0.0)),
-        crank2=multibody.BodyBox(height=0.05, widthDirection=(1.0, 0.0, 0.0), width=0.02, r=(0.0, 0.1, 0.0)),
-        crank3=multibody.BodyCylinder(r=(0.1, 0.0, 0.0), diameter=0.03),
-        crank4=multibody.BodyBox(height=0.05, widthDirection=(1.0, 0.0, 0.0), width=0.02, r=(0.0, -0.1, 0.0)),
-        mid=multibody.FixedTranslation(r=(0.05, 0.0, 0.0)),
-        cylPosition=multibody.FixedTranslation(r=(0.15, 0.45, 0.0)), gasForce=GasForce(d=0.1, L=0.35),
-        b1=multibody.Revolute(n=(1.0, 0.0, 0.0)), b2=multibody.RevolutePlanarLoopConstraint(n=(1.0, 0.0, 0.0)),
+        **crank(), gasForce=GasForce(d=0.1, L=0.35),
         cylinder=multibody.Prismatic(useAxisFlange=True, n=(0.0, -1.0, 0.0)),
         rod1=multibody.FixedTranslation(r=(0.0, -0.2, 0.0)), rod3=multibody.FixedTranslation(r=(0.0, -0.1, 0.0)),
     )  # fmt: skip
