@@ -118,3 +118,36 @@ def test_without_states_no_switch_is_missed_between_two_outputs(engine: Any) -> 
     wanted = np.sort([k + at for k in range(3) for at in (up, 0.5 - up)])
     np.testing.assert_allclose([event.t for event in solution.events], wanted, atol=1e-8)
     assert solution["n"][-1] == 3.0
+
+
+class Pulse(ac.Component):
+    """A pulse of area one, and how often it has come."""
+
+    x: ac.Variable = ac.Variable(start=0.0, fixed=True)
+    n: ac.Discrete = ac.Discrete()
+    begin: ac.Parameter = ac.Parameter(0.5)
+    end: ac.Parameter = ac.Parameter(0.6)
+
+    def equations(self) -> ac.Equations:
+        on = (ac.time >= self.begin) & (ac.time < self.end)
+        yield ac.der(self.x) == ac.where(on, 1 / (self.end - self.begin), 0.0)
+        yield ac.when(on, {self.n: ac.pre(self.n) + 1})
+
+
+@pytest.mark.parametrize("solver", ["rodas5p", "rk4", "adams"])
+def test_pulses_much_narrower_than_a_step(solver: str) -> None:
+    """Thresholds of time that are parameters are hit to rounding, and no pulse is stepped over."""
+    system = ac.compile(Pulse())
+    for seed in range(60):
+        rng = np.random.default_rng(seed)
+        t1 = 10 ** rng.uniform(-2, 5)
+        begin = t1 * rng.uniform(0.01, 0.98)
+        end = begin + t1 * 10 ** rng.uniform(-11, -2)
+        options: dict[str, Any] = {"dt": 0.037 * t1} if solver == "rk4" else {"rtol": 1e-4}
+        solution = system.simulate(
+            t1, parameters={"begin": begin, "end": end}, engine="native", solver=solver, saveat=2, **options
+        )
+        found = [solution.events[0].t, solution.events[-1].t]
+        np.testing.assert_allclose(found, [begin, end], rtol=2e-15, err_msg=f"seed {seed}")
+        assert solution["n"][-1] == 1.0
+        np.testing.assert_allclose(solution["x"][-1], 1.0, atol=4e-15 * end / (end - begin), err_msg=f"seed {seed}")

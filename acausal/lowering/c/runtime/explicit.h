@@ -192,6 +192,8 @@ static int ac_adams(ac_problem *q, ac_work *w, ac_explicit_work *e) {
     if (ac_slope(w, q->t0, w->z, w->f)) return AC_SINGULAR;
     memcpy(w->z1, w->z, sizeof w->z);
     double h = q->first_step > 0.0 ? q->first_step : 0.1 * ac_first_step(q, w, direction);
+    /* behind an event a state may just have left zero: the estimate is then below rounding of the time */
+    h = ac_max(h, ac_max(1e-14 * fabs(q->t0), 1e-10 * q->smallest));
     memset(e->phi, 0, sizeof e->phi);
     memcpy(e->phi[0], w->f, sizeof w->f);
     e->x[0] = q->t0;
