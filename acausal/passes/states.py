@@ -82,6 +82,7 @@ def _solve_lower(reduced: IndexReduced, lower: Ints, candidate: Bools, parameter
     parts = dulmage_mendelsohn(inside, np.asarray(maximum_matching(inside)))
     forced = np.zeros(len(lower), bool)
     forced[parts.square_rows] = True
+    forced = _forced_throughout(reduced, lower, forced)
     wanted = bool((reduced.flat.select[ids] > STATE_SELECT.index("default")).any())
     elsewhere = ~own & safe & wanted
     allowed = own & (safe | forced[owner]) | elsewhere
@@ -94,6 +95,23 @@ def _solve_lower(reduced: IndexReduced, lower: Ints, candidate: Bools, parameter
     unsafe = _unsafe_blocks(reduced, lower[matched], ids, graph, matched, column, parameters)
     column[matched[unsafe]] = -1
     return np.where(column >= 0, ids[np.maximum(column, 0)] if len(ids) else -1, -1)
+
+
+def _forced_throughout(reduced: IndexReduced, lower: Ints, forced: Bools) -> Bools:
+    """Rows that leave no choice at their own level nor, differentiated, at a higher one.
+
+    An orientation is differentiated by its angular velocity: a constraint of positions then shows no choice between a
+    slider and an angle, that of velocities does, and the slider's pivot may vanish where the model is sound.
+    """
+    position = np.full(len(reduced.row_derivative), -1, np.int64)
+    position[lower] = np.arange(len(lower))
+    above = position[reduced.row_derivative[lower]]
+    out = forced.copy()
+    while True:
+        free = out & (above >= 0) & ~out[above]
+        if not free.any():
+            return out
+        out[free] = False
 
 
 def _avoid_iteration(graph: Incidence, column: Ints, kinds: Ints, allowed: Bools, order: Ints) -> Ints:

@@ -12,9 +12,6 @@ from acausal.components.examples import assemble
 
 from .test_multibody_loops import energy
 
-LOOPS = (10, 14, 16, 18)
-"""Seeds whose loops do not reach a dead centre of a slider within the run (see the known gaps)."""
-
 
 def direction(rng: np.random.Generator) -> tuple[float, float, float]:
     """A coordinate axis, or any direction."""
@@ -66,7 +63,7 @@ def mechanism(seed: int, *, loop: bool) -> tuple[Component, list[str]]:
     return assemble(*connections, **parts), [f"link{k}.body" for k in range(n)]
 
 
-@pytest.mark.parametrize(("seed", "loop"), [(k, False) for k in range(6)] + [(k, True) for k in LOOPS])
+@pytest.mark.parametrize(("seed", "loop"), [(k, False) for k in range(6)] + [(k, True) for k in range(10, 15)])
 def test_energy_is_kept(seed: int, loop: bool) -> None:
     model, bodies = mechanism(seed, loop=loop)
     system = ac.compile(model)
@@ -79,7 +76,7 @@ def test_energy_is_kept(seed: int, loop: bool) -> None:
 
 
 @pytest.mark.parametrize(("seed", "loop"), [
-    (1, False), (16, True), *(pytest.param(k, k > 9, marks=pytest.mark.slow) for k in (2, 4, 10, 18))
+    (1, False), (11, True), *(pytest.param(k, k > 9, marks=pytest.mark.slow) for k in (2, 4, 10, 13))
 ])  # fmt: skip
 def test_both_engines_agree(seed: int, loop: bool) -> None:
     model, bodies = mechanism(seed, loop=loop)
