@@ -6,6 +6,8 @@ tangent, Newton's method as the corrector, and a step that is halved where the c
 
 from __future__ import annotations
 
+from typing import Any
+
 import jax
 import jax.numpy as jnp
 from jax import Array
@@ -23,19 +25,22 @@ def follow_in_time(lowered: Lowered, t0: Array, t: Array, w0: Array, p: Array) -
 
     The way from one time to the next gives a guess only: derivatives are those of the equations at the output times.
     """
-    x = jnp.zeros(0)
 
     def step(carry: tuple[Array, Array], target: Array) -> tuple[tuple[Array, Array], Array]:
-        before, w = carry
-        guess = _continued(lowered, *(jax.lax.stop_gradient(a) for a in (before, target, w, p)))
-        found = lowered.solve_algebraic(target, x, guess, p)
+        found = followed(lowered, carry[0], target, w := carry[1], p)
         good = jnp.all(jnp.isfinite(found))
         return (target, jnp.where(good, found, w)), found
 
     return jax.lax.scan(step, (t0, w0), t)[1]
 
 
-def _continued(lowered: Lowered, begin: Array, end: Array, w: Array, p: Array) -> Array:
+def followed(lowered: Lowered, begin: Array, end: Array, w: Array, p: Any) -> Array:
+    """The unknowns at `end`, (n_w,), from their values `w` at `begin`; not finite where there is no solution."""
+    guess = _continued(lowered, *jax.lax.stop_gradient((begin, end, w, p)))
+    return lowered.solve_algebraic(end, jnp.zeros(0), guess, p)
+
+
+def _continued(lowered: Lowered, begin: Array, end: Array, w: Array, p: Any) -> Array:
     """A guess of the unknowns at `end`, from their values at `begin`."""
     x, size = jnp.zeros(0), jnp.asarray(lowered.w_nominal, float)
     span = end - begin

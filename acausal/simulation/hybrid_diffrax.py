@@ -24,6 +24,7 @@ from acausal.lowering.numeric import NumericRun, is_concrete
 
 from . import simulate as plain
 from .conditions import sides
+from .continuation import followed
 from .controller import ROUNDING
 from .engines import all_signals, output_times
 from .event_iteration import Equations, EventIteration
@@ -33,7 +34,7 @@ from .hybrid_run import EVENT, HybridRun, Integrate, run_hybrid, warn
 from .hybrid_static import Stretch, static_integrate
 from .hybrid_tangents import Differentiated, run_with_tangents
 from .inputs import DrivenLowered, drive
-from .jit import values_are_known
+from .jit import compiled_for, values_are_known
 from .native_library import RESULTS, Floats
 from .rodas5p import Rodas5P
 from .solution import Solution
@@ -227,8 +228,19 @@ class _Stretches:
 
     def static(self) -> Integrate:
         """The same for a model without states."""
-        nominal = np.asarray(self.lowered.w_nominal, float)
-        return static_integrate(self.iteration.hybrid, self.iteration.equations, nominal)
+        hybrid, lowered = self.iteration.hybrid, self.lowered
+        switch = Switch(jnp.zeros(hybrid.roots.count), jnp.zeros(()), lowered, hybrid.roots, True, 0)
+        run = jax.jit(functools.partial(_look, switch))
+
+        def look(begin: float, t: float, z: Floats, p: Floats) -> tuple[Floats, Floats]:
+            given: Any = (p, self.numbers) if isinstance(lowered, DrivenLowered) else p
+            arguments = (np.asarray(begin), np.asarray(t), z, given)
+            compiled, seconds = compiled_for(lowered, "look", run, arguments)
+            self.model.compile_seconds += seconds
+            w, beyond = compiled(*arguments)
+            return np.asarray(w), np.asarray(beyond)
+
+        return static_integrate(hybrid, look)
 
     def differentiated(self) -> Differentiated:
         """Stretches with their derivatives."""
@@ -355,6 +367,12 @@ def _finished(
         text = explain(system, lowered, result, stats, last, solution.p, t1, model.how.max_steps)
         raise SimulationError(text)
     return solution
+
+
+def _look(switch: Switch, begin: Any, t: Any, w: Any, p: Any) -> tuple[Any, Any]:
+    """A model without states at time t, from its solution at `begin`, and how far its conditions are behind."""
+    w = followed(switch.lowered, begin, t, w, p) if switch.lowered.n_w else w
+    return w, -switch.sides(t, w, p)
 
 
 def _slack(iteration: EventIteration, equations: Equations, t: float, z: Floats, p: Floats) -> Floats:
