@@ -17,7 +17,7 @@ import acausal as ac
 from acausal.components import blocks, electrical, rotational, thermal
 from acausal.components.examples import assemble, start
 
-from . import msl_circuits, msl_drives, msl_mechanisms, msl_shafts, msl_slides
+from . import msl_characteristics, msl_circuits, msl_drives, msl_mechanisms, msl_shafts, msl_slides
 from .msl_hybrid import coupled_clutches
 from .test_msl import read
 
@@ -41,6 +41,13 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
     "InitialConditions": msl_slides.initial_conditions, "Sensors": msl_slides.sensors,
     "SignConvention": msl_slides.sign_convention, "Vehicle": msl_slides.vehicle, "WhyArrows": msl_slides.why_arrows,
     "SlidingFriction": msl_slides.friction,
+    "CharacteristicIdealDiodes": msl_characteristics.characteristic_ideal_diodes,
+    "CharacteristicThyristors": msl_characteristics.characteristic_thyristors,
+    "Comparator": msl_characteristics.comparator,
+    "ShowSaturatingInductor": msl_characteristics.show_saturating_inductor,
+    "ShowVariableResistor": msl_characteristics.show_variable_resistor,
+    "OvervoltageProtection": msl_characteristics.overvoltage_protection,
+    "InvertingAmp": msl_characteristics.inverting_amp, "SchmittTrigger": msl_characteristics.schmitt_trigger,
 }  # fmt: skip
 
 
