@@ -8,7 +8,7 @@ import numpy as np
 
 from acausal.lowering.hybrid import Hybrid, Point
 
-from .event_iteration import Equations
+from .mode_search import Equations
 from .native_library import Floats
 
 

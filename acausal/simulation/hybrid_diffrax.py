@@ -27,7 +27,7 @@ from .conditions import sides
 from .continuation import followed
 from .controller import ROUNDING
 from .engines import all_signals, output_times
-from .event_iteration import Equations, EventIteration
+from .event_iteration import EventIteration
 from .event_tangents import EventTangents
 from .failure import explain
 from .hybrid_run import EVENT, HybridRun, Integrate, run_hybrid, warn
@@ -35,6 +35,7 @@ from .hybrid_static import Stretch, static_integrate
 from .hybrid_tangents import Differentiated, run_with_tangents
 from .inputs import DrivenLowered, drive
 from .jit import compiled_for, values_are_known
+from .mode_search import Equations
 from .native_library import RESULTS, Floats
 from .rodas5p import Rodas5P
 from .solution import Solution
