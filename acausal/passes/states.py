@@ -26,6 +26,8 @@ from ..symbolic.isolate import Isolated, Solvability, isolate
 from ..symbolic.traverse import evaluate
 from .structure import IndexReduced
 
+DEFAULT = STATE_SELECT.index("default")
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Selected:
@@ -67,6 +69,7 @@ def _solve_lower(reduced: IndexReduced, lower: Ints, candidate: Bools, parameter
     rather than what is computed from them), a variable of another block is taken as well, with a constant pivot.
     """
     rows, columns, kind = _edges(reduced, lower, parameters)
+    select = _wishes(reduced, rows, columns)
     row_label, column_label = _top_blocks(reduced)
     use = candidate[columns] & _tight(reduced, lower[rows], columns)
     rows, columns, kind = rows[use], columns[use], kind[use]
@@ -83,10 +86,10 @@ def _solve_lower(reduced: IndexReduced, lower: Ints, candidate: Bools, parameter
     forced = np.zeros(len(lower), bool)
     forced[parts.square_rows] = True
     forced = _forced_throughout(reduced, lower, forced)
-    wanted = bool((reduced.flat.select[ids] > STATE_SELECT.index("default")).any())
+    wanted = bool((select[ids] > DEFAULT).any())
     elsewhere = ~own & safe & wanted
     allowed = own & (safe | forced[owner]) | elsewhere
-    order = np.lexsort(_dislike(reduced, ids))
+    order = np.lexsort(_dislike(reduced, ids, select))
     column = np.asarray(transversal_basis(graph, order, allowed))
     column = _avoid_iteration(graph, column, kinds, allowed, order)
     moved = np.zeros(len(lower), bool)
@@ -169,7 +172,31 @@ def _tight(reduced: IndexReduced, rows: Ints, columns: Ints) -> Bools:
     return _height(reduced.row_derivative)[rows] == _height(reduced.derivative_of)[columns]
 
 
-def _dislike(reduced: IndexReduced, ids: Ints) -> tuple[Ints, ...]:
+def _wishes(reduced: IndexReduced, rows: Ints, columns: Ints) -> Ints:
+    """What the model says of each variable as a state, from the incidences of the differentiated equations.
+
+    A relative coordinate that is preferred is no better a state than what moves, if its other side is prescribed: that
+    may be held or extrapolated from outside, and a jump of it would move the masses.
+    """
+    select = reduced.flat.select.astype(np.int64)
+    if not (select[columns] == DEFAULT + 1).any():
+        return select
+    given = np.zeros(len(select), bool)
+    while True:
+        left = np.bincount(rows[~given[columns]], minlength=int(rows.max(initial=-1)) + 1)
+        found = columns[(left[rows] == 1) & ~given[columns]]
+        if not len(found):
+            break
+        given[found] = True
+    beside = np.zeros(len(left), bool)
+    beside[rows[given[columns]]] = True
+    beside &= left == 2
+    demoted = columns[beside[rows] & ~given[columns]]
+    select[demoted] = np.where(select[demoted] == DEFAULT + 1, DEFAULT, select[demoted])
+    return select
+
+
+def _dislike(reduced: IndexReduced, ids: Ints, select: Ints) -> tuple[Ints, ...]:
     """Sort keys (last is the most important): what should rather not be a state comes first."""
     order = np.zeros(len(ids), np.int64)
     at = ids.copy()
@@ -178,7 +205,7 @@ def _dislike(reduced: IndexReduced, ids: Ints) -> tuple[Ints, ...]:
         at = np.where(reduced.parent[at] >= 0, reduced.parent[at], at)
     flat = reduced.flat
     start_given = ~np.isnan(flat.start[ids])
-    return -ids, start_given, flat.fixed[ids] == 1, flat.select[ids].astype(np.int64), -order
+    return -ids, start_given, flat.fixed[ids] == 1, select[ids], -order
 
 
 def _kinds(found: Isolated, family: Family, rows: Ints, parameters: np.ndarray) -> Ints:

@@ -12,7 +12,7 @@ import pytest
 
 import acausal as ac
 from acausal import Component
-from acausal.components import rotational, translational
+from acausal.components import blocks, rotational, translational
 from acausal.components.examples import assemble, start
 
 
@@ -35,6 +35,17 @@ def test_states_are_as_wished(wish: str, wanted: bool) -> None:
     solution = system.simulate(3.0, saveat=t, rtol=1e-9)
     np.testing.assert_allclose(solution["shaft.s_rel"], np.cos(np.sqrt(8.0) * t), atol=1e-7)
     np.testing.assert_allclose(solution["one.s"] + solution["two.s"], 1.0, atol=1e-9)
+
+
+def test_states_beside_a_prescribed_motion_are_those_of_the_mass() -> None:
+    """A prescribed side may jump, as an input that is held over a communication step does."""
+    model = assemble(
+        "drive.y - move.s_ref", "move.flange - shaft.flange_a", "shaft.flange_b - two.flange_a",
+        drive=blocks.Sine(f=0.2), move=translational.Position(exact=True),
+        shaft=translational.SpringDamper(c=8.0, d=0.0, stateSelect="prefer"),
+        two=translational.Mass(m=2.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True)),
+    )  # fmt: skip
+    assert set(ac.compile(model).states) == {"two.s", "two.v"}
 
 
 @pytest.mark.parametrize("scale", [0.0, -1.0])
