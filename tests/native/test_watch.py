@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import _thread
+import signal
 import threading
 import time
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -17,6 +19,14 @@ from .models import Decay
 @pytest.fixture(scope="module")
 def system() -> ac.System:
     return ac.compile(Decay())
+
+
+@pytest.fixture(autouse=True)
+def interrupts() -> Iterator[None]:
+    """They arrive, although a shell starts what it puts into the background without them."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 ENDLESS = {"solver": "rk4", "dt": 1e-9, "saveat": 2, "max_steps": 10**10}
