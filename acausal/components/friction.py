@@ -7,7 +7,7 @@ from acausal import PI, DeclarationError, Expr
 
 FREE, FORWARD, STUCK, BACKWARD, UNKNOWN = 2.0, 1.0, 0.0, -1.0, 3.0
 """Values of `mode`, as in Modelica.Mechanics.Rotational.Interfaces.PartialFriction."""
-GIVE = 1e-12
+GIVE = 1e-14
 """Relative acceleration, over its unit, of an element that is stuck and holds as much as it can."""
 LEAST = 1e-12
 """Keeps the share of what an element can hold finite where it can hold nothing."""
