@@ -104,8 +104,8 @@ def _of(a: Floats, x: Any) -> Any:
 
 def _top(a: Floats) -> Floats:
     """Where in (0, 1) each cubic is largest, -1 for those that are largest at an end; (n,)."""
-    square = a[2] ** 2 - 3.0 * a[3] * a[1]
     with np.errstate(all="ignore"):
+        square = a[2] ** 2 - 3.0 * a[3] * a[1]
         root = np.sqrt(square)
         x = np.where(a[2] > 0.0, (-a[2] - root) / (3.0 * a[3]), a[1] / (root - a[2]))
         inside = (square > 0.0) & (x > 0.0) & (x < 1.0)
