@@ -16,23 +16,16 @@ from acausal.lowering.hybrid import Roots
 
 from .inputs import DrivenLowered
 from .projection import Wrapped
+from .scan import CUBIC, FURTHER, LOOKS, NODES, ROUNDING, TRUST
 
 SMALL = 1e-30
 """The root finder asks for a small function as well as for a short interval: the interval alone is to count."""
-LOOKS = (
-    0.0, 0.1136592107, 0.2329173741, 0.3719042273, 0.5131842019, 0.6527719033, 0.7874513277, 0.9023316619, 1.0
-)  # fmt: skip
-"""Where in a step conditions are looked at: not evenly and at no simple fractions, so as not to fall in step with a
-swing."""
-TRUST = 4.0
-"""The cubic through four values may be wrong by so many times what it is wrong by at the others."""
-_PLACES = np.array(LOOKS)
-_NODES = np.array([0, 2, 6, 8])
-_CUBIC = np.linalg.inv(np.vander(_PLACES[_NODES], 4, increasing=True))
+_PLACES = np.sort([*LOOKS, *FURTHER])
+_NODES = np.searchsorted(_PLACES, LOOKS[NODES])
 
 
 def unresolved(sides: Any) -> Any:
-    """Whether the values of each condition at `LOOKS` leave open what happens between them.
+    """Whether the values of each condition at `_PLACES` leave open what happens between them.
 
     As `acausal/lowering/c/runtime/scan.h`: the cubic through four of them is to tell the others where it matters, and a
     switch there and back has to be between two values.
@@ -40,7 +33,7 @@ def unresolved(sides: Any) -> Any:
     Args:
         sides: (9, n), negative where a condition has switched.
     """
-    a = _CUBIC @ sides[_NODES]
+    a = CUBIC @ sides[_NODES]
     error = TRUST * jnp.max(jnp.abs(sides - np.vander(_PLACES, 4, increasing=True) @ a), axis=0)
     square = a[2] ** 2 - 3.0 * a[3] * a[1]
     root = jnp.sqrt(jnp.maximum(square, 0.0))
@@ -49,7 +42,7 @@ def unresolved(sides: Any) -> Any:
     x = jnp.where(between, bottom, 0.0)
     seen, span = jnp.min(sides, axis=0), jnp.ptp(sides, axis=0)
     least = jnp.where(between, jnp.minimum(seen, a[0] + x * (a[1] + x * (a[2] + x * a[3]))), seen)
-    vague = jnp.where(seen <= 0.0, error > 0.1 * span, least < error) & (error > 1e-13 * span)
+    vague = jnp.where(seen <= 0.0, error > 0.1 * span, least < error) & (error > ROUNDING * span)
     hidden = (seen > 0.0) & (least <= 0.0)
     on = (sides <= 0.0).any(axis=1)
     there_and_back = (on[:-1] & ~on[1:]).any()
@@ -118,7 +111,7 @@ class Watched(Wrapped):
                 t = t0 + s * (t1 - t0)
                 return self.switch.sides(t, between.evaluate(t), args)
 
-            inside = jax.lax.map(sides, jnp.asarray(LOOKS[1:-1]))
+            inside = jax.lax.map(sides, jnp.asarray(_PLACES[1:-1]))
             ends = self.switch.sides(t0, y0, args), self.switch.sides(t1, y1, args)
             over = unresolved(jnp.concatenate([ends[0][None], inside, ends[1][None]]))
             over &= t1 - t0 > self.switch.shortest
