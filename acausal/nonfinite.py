@@ -45,8 +45,7 @@ def explain_nonfinite(system: System, t: Any, x: Any, w: Any, p: Any) -> str | N
         return None
     lines = [head]
     for family, row in found[:3]:
-        component, place = flat.equation_place(family, row)
-        lines.append(f"    {flat.equation_text(family, row)}    {component or '(model)'}  {place}")
+        lines.append(f"    {flat.equation_line(family, row)}")
         lines.append(f"    with {_given(flat, family, row, values, parameters)}")
     return "\n".join(lines)
 
@@ -57,16 +56,14 @@ def block_equations(system: System, unknowns: Ints) -> list[str]:
     lines: dict[str, None] = {}
     offset = 0
     for group in schedule.groups:
-        m = len(group.kernel.tears)
         if not group.kernel.iterates:
             continue
-        mine = unknowns[(unknowns >= offset) & (unknowns < offset + group.size * m)]
+        m = len(group.kernel.tears)
+        place = unknowns - offset
         offset += group.size * m
-        for block in np.unique((mine - (offset - group.size * m)) // m):
+        for block in np.unique(place[(place >= 0) & (place < group.size * m)] // m):
             for row in group.equations[block].tolist():
-                family, k = schedule.reduced.rows.locate(row)
-                component, place = flat.equation_place(family, k)
-                lines[f"    {flat.equation_text(family, k)}    {component or '(model)'}  {place}"] = None
+                lines[f"    {flat.equation_line(*schedule.reduced.rows.locate(row))}"] = None
     return list(lines)[:LISTED]
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .language.flat_model import Family, FlatModel
+from .language.flat_model import FlatModel
 from .lowering.initial import ACCEPTED
 from .passes.places import declared
 
@@ -123,9 +123,9 @@ def explain_initial(
     texts: list[str] = []
     if low.n_w:
         texts += [_determining(system, int(v)) for v in system.stages.schedule.tears]
-    texts += [_place(flat, f, k) for f in system.stages.schedule.invariants for k in range(f.size)]
+    texts += [flat.equation_line(f, k) for f in system.stages.schedule.invariants for k in range(f.size)]
     texts += [_fixed(flat, int(v), starts, values) for v in problem.targets]
-    extra = [_place(flat, f, k) for f in problem.families for k in range(f.size)]
+    extra = [flat.equation_line(f, k) for f in problem.families for k in range(f.size)]
     while len(texts) + len(extra) < len(left):
         texts.append("a value given as simulate(initial={...})")
     texts += extra
@@ -166,7 +166,7 @@ def _determining(system: System, v: int) -> str:
     found: list[str] = []
     for family in system.stages.index.families:
         for row in np.flatnonzero((family.var_rows == v).any(axis=1))[:2]:
-            found.append(_place(flat, family, int(row)))
+            found.append(flat.equation_line(family, int(row)))
     lines = "".join(f"\n                   {text}" for text in found[:3])
     return f"the equations that determine `{flat.name(v)}`{':' if lines else ''}{lines}"
 
@@ -177,8 +177,3 @@ def _fixed(flat: FlatModel, v: int, starts: np.ndarray, values: np.ndarray) -> s
     got = f", but the other conditions give {values[v]:.6g}" if v < len(values) and np.isfinite(values[v]) else ""
     places = declared(flat, [_owner(flat.name(v))])
     return f"`{flat.name(v)}` has the fixed start value{wanted}{got}" + (f"  {places[0].strip()}" if places else "")
-
-
-def _place(flat: FlatModel, family: Family, row: int) -> str:
-    component, place = flat.equation_place(family, row)
-    return f"{flat.equation_text(family, row)}    {component or '(model)'}  {place}"

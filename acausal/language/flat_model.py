@@ -254,6 +254,11 @@ class FlatModel:
         source = self.sources[int(family.source[row])]
         return source.component(int(family.ordinal[row])), str(source.origin)
 
+    def equation_line(self, family: Family, row: int) -> str:
+        """One equation with its component and source position, for a message."""
+        component, place = self.equation_place(family, row)
+        return f"{self.equation_text(family, row)}    {component or '(model)'}  {place}"
+
 
 def sides(residual: Expr) -> tuple[Expr, Expr]:
     """Positive terms on the left, negative ones on the right."""
