@@ -26,7 +26,7 @@ from ..symbolic.isolate import Isolated, Solvability, isolate
 from ..symbolic.traverse import evaluate
 from .structure import IndexReduced
 
-DEFAULT = STATE_SELECT.index("default")
+DEFAULT, PREFER = STATE_SELECT.index("default"), STATE_SELECT.index("prefer")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -179,7 +179,7 @@ def _wishes(reduced: IndexReduced, rows: Ints, columns: Ints) -> Ints:
     may be held or extrapolated from outside, and a jump of it would move the masses.
     """
     select = reduced.flat.select.astype(np.int64)
-    if not (select[columns] == DEFAULT + 1).any():
+    if not (select[columns] == PREFER).any():
         return select
     given = np.zeros(len(select), bool)
     while True:
@@ -192,7 +192,7 @@ def _wishes(reduced: IndexReduced, rows: Ints, columns: Ints) -> Ints:
     beside[rows[given[columns]]] = True
     beside &= left == 2
     demoted = columns[beside[rows] & ~given[columns]]
-    select[demoted] = np.where(select[demoted] == DEFAULT + 1, DEFAULT, select[demoted])
+    select[demoted] = np.where(select[demoted] == PREFER, DEFAULT, select[demoted])
     return select
 
 

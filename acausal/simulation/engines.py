@@ -83,25 +83,23 @@ def system_to_run(system: Any, options: Mapping[str, Any], engine: str) -> Any:
 
 def _known(options: Mapping[str, Any]) -> bool:
     """Whether the numbers of a run are known, though derivatives may be being taken with diffrax."""
-    given = [v for v in options.values() if not isinstance(v, str)]
-    if is_concrete(given):
+    if is_concrete(list(options.values())):
         return True
     from .jit import values_are_known
 
-    return options.get("adjoint") is None and values_are_known(given)
+    return options.get("adjoint") is None and values_are_known(list(options.values()))
 
 
 def _telling(system: Any, options: dict[str, Any]) -> dict[str, Any]:
     """The options; if derivatives are taken, it is said once that they leave out what happens at conditions."""
     located = system.located
-    given = [v for v in options.values() if not isinstance(v, str)]
-    if options.get("events", True) is not True or located.hybrid is None or is_concrete(given):
+    if options.get("events", True) is not True or located.hybrid is None or is_concrete(list(options.values())):
         return options
     from .jit import told_when_differentiated
 
     def tell() -> None:
-        if not system.cache.setdefault("told", set()):
-            system.cache["told"].add("derivatives")
+        if not system.cache.get("told"):
+            system.cache["told"] = True
             hybrid = located.hybrid
             conditions = "\n".join(f"    {hybrid.text(s)}" for s in hybrid.roots.slots[:3].tolist())
             warnings.warn(
@@ -197,10 +195,6 @@ def _native(
     return finish(model, save, started.p, run, given.signals, seconds, t1, max_steps, method=solver, throw=throw)
 
 
-def _ended(run: HybridRun) -> str:
-    return "successful" if run.ended is None else f"terminated: {run.ended}"
-
-
 def output_times(saveat: Any, t0: float, t1: float) -> Floats:
     """Output times of a concrete run."""
     if saveat is None or isinstance(saveat, int):
@@ -291,11 +285,9 @@ def finish(
     stats |= {"solver": _NAMES[method], "engine": "native"}
     stats |= {"compile_seconds": seconds[0], "run_seconds": seconds[1], "t_end": run.t_end}
     if isinstance(run, HybridRun):
-        z, t, slots, events = run.z, run.save, run.slots, tuple(run.events)
-        result = RESULTS[run.code] if run.code else _ended(run)
+        z, t, slots, events, result = run.z, run.save, run.slots, tuple(run.events), run.result
     else:
-        z, t, slots, events = run.z[: run.saved], save[: run.saved], None, ()
-        result = RESULTS[run.code]
+        z, t, slots, events, result = run.z[: run.saved], save[: run.saved], None, (), RESULTS[run.code]
 
     def observe(t: Any, z: Any) -> Any:
         return model.observe(t, z, p, signals, slots)

@@ -40,9 +40,9 @@ from .native_library import RESULTS, Floats
 from .rodas5p import Rodas5P
 from .solution import Solution
 from .start_tangents import StartTangents
-from .started import Given, Seed, Started, Tolerances, given_mask
+from .started import Given, Seed, Started, Tolerances, given_values
 from .switch import Switch
-from .traced import OUTSIDE, Way, simulate_traced
+from .traced import Way, simulate_traced
 
 SLACK = 1e-12
 TIME = 1e-14
@@ -53,6 +53,14 @@ SAME = 1e-13
 """Output times this close to that of an event, relative to it, are the event's: they show what follows."""
 NARROWEST = 1e-6
 """Steps shorter than this part of the rest of the run are not refused."""
+
+
+OUTSIDE = (
+    "The diffrax engine carries out events outside of JAX's programs, where the values are known: jax.grad, jax.jacfwd "
+    "and jax.jacrev of a run with events work; inside of jit or vmap (and so in a calibration or an ensemble) it "
+    "cannot run. The native engine can (engine='native'; it needs a C compiler); and events=False switches events off "
+    "where the model has conditions only."
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,16 +97,6 @@ class NumericEquations:
         return NumericRun(low, t, z[: low.n_x], z[low.n_x :], p, np.zeros(0, np.int64), none).value
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _How:
-    """How the stretches of a run are solved: what may not be traced."""
-
-    method: Any
-    controller: Any
-    has_dt: bool
-    max_steps: int
-
-
 @dataclass(eq=False)
 class DiffraxModel:
     """A system with events, as `acausal.simulation.native.NativeModel`, for runs of one kind.
@@ -107,14 +105,17 @@ class DiffraxModel:
         system: the system.
         functions: inputs that are functions of time, by name.
         tables: names of the inputs that are tables.
-        how: method and controller.
+        method, controller: of the stretches.
+        has_dt: whether the first step is given.
         compile_seconds: what compiling has taken.
     """
 
     system: Any
     functions: Mapping[str, Any]
     tables: tuple[str, ...]
-    how: _How
+    method: Any
+    controller: Any
+    has_dt: bool
     compile_seconds: float = 0.0
 
     def driven(self, given: Given) -> tuple[Any, Any]:
@@ -131,10 +132,7 @@ class DiffraxModel:
         """
         system = self.system
         low, program = system.lowered, system.program
-        p = program.base.copy()
-        mask = given_mask(system, given.parameters, p)
-        for k, (times, values) in enumerate(given.signals):
-            p[program.flat.n_par + k] = np.interp(t0, times, values)
+        p, mask = given_values(system, t0, given)
         p = program.completed(p, mask.astype(bool))
         equations = NumericEquations(system, *self.driven(given))
         iteration = EventIteration(system.hybrid, system.initial, equations, warn)
@@ -158,10 +156,10 @@ class DiffraxModel:
         """Start and integrate."""
         started = self.start(t0, given, check)
         assert started.iteration is not None and started.outcome is not None
-        stretches = self._stretches(started.iteration, save, given, how)
+        stretches = _Stretches(self, started.iteration, save, how)
         integrate = stretches.integrate if self.system.lowered.n_x else stretches.static()
         run = run_hybrid(
-            started.iteration, started.outcome, t0, t1, save, integrate, first_step=0.0, max_steps=self.how.max_steps
+            started.iteration, started.outcome, t0, t1, save, integrate, first_step=0.0, max_steps=how.max_steps
         )
         return started, run
 
@@ -172,16 +170,12 @@ class DiffraxModel:
         """As `run`, with derivatives along `seeds`: of z and the slots (n_t, n + n_slots, k), of the parameters."""
         started = self.start(t0, given, check)
         assert started.iteration is not None
-        stretches = self._stretches(started.iteration, save, given, how)
+        stretches = _Stretches(self, started.iteration, save, how)
         run, dz, dp = run_with_tangents(
             started, t0, t1, save, given, StartTangents(self.system, None, len(seeds)), seeds, stretches.rates,
-            stretches.differentiated(), first_step=0.0, max_steps=self.how.max_steps,
+            stretches.differentiated(), first_step=0.0, max_steps=how.max_steps,
         )  # fmt: skip
         return started, run, dz, dp
-
-    def _stretches(self, iteration: EventIteration, save: Floats, given: Given, how: Tolerances) -> _Stretches:
-        lowered, numbers = self.driven(given)
-        return _Stretches(self, lowered, numbers, iteration, save, how)
 
 
 @dataclass(eq=False)
@@ -189,11 +183,12 @@ class _Stretches:
     """The stretches of one run."""
 
     model: DiffraxModel
-    lowered: Any
-    numbers: Any
     iteration: EventIteration
     save: Floats
     tolerances: Tolerances
+
+    def __post_init__(self) -> None:
+        self.lowered, self.numbers = _driven(self.iteration)
 
     def integrate(
         self, t: float, stop: float, z: Floats, p: Floats, remaining: Floats, step: float, end_open: bool, steps: int
@@ -204,7 +199,7 @@ class _Stretches:
             return Stretch(np.tile(z, (n, 1)), 0, n, max(t, stop), z, step, None, {})
         hybrid, equations, n_x = self.iteration.hybrid, self.iteration.equations, self.lowered.n_x
         slack, shortest = _slack(self.iteration, equations, t, z, p), jnp.asarray(NARROWEST * (stop - t))
-        together = isinstance(self.model.how.method, Rodas5P)
+        together = isinstance(self.model.method, Rodas5P)
         switch = Switch(jnp.asarray(slack), shortest, self.lowered, hybrid.roots, together, n_x)
         finder = optx.Bisection(rtol=TIME, atol=TIME, flip=True)  # what switches by rounding is at an end of the step
         event = diffrax.Event(switch, finder) if hybrid.roots.count else None
@@ -274,9 +269,9 @@ class _Stretches:
         return out
 
     def _settings(self, event: Any) -> Any:
-        how = self.model.how
+        model, most = self.model, self.tolerances.max_steps
         return plain.settings_of(
-            how.method, ("times",), controller=how.controller, has_dt=how.has_dt, event=event, max_steps=how.max_steps
+            model.method, ("times",), controller=model.controller, has_dt=model.has_dt, event=event, max_steps=most
         )
 
     def _arguments(self, t: float, stop: float, z: Floats, p: Floats, remaining: Floats) -> tuple[Any, ...]:
@@ -309,6 +304,13 @@ class _Stretches:
         return run, np.concatenate([x, w], axis=1)[: run.saved], np.concatenate([x_end, w_end])
 
 
+def _driven(iteration: Any) -> tuple[Any, Any]:
+    """The lowered system of a run, with its inputs, and their numbers."""
+    equations = iteration.equations
+    assert isinstance(equations, NumericEquations)
+    return equations.lowered, equations.numbers
+
+
 def simulate_events(
     system: Any, t1: Any, *, t0: Any = 0.0, parameters: Mapping[str, Any] | None = None,
     initial: Mapping[str, Any] | None = None, inputs: Mapping[str, Any] | None = None, saveat: Any = None,
@@ -326,7 +328,7 @@ def simulate_events(
     low = system.lowered
     method = plain.with_linear_solver(plain.chosen_solver(solver), low)
     most = plain.MAX_STEPS if max_steps is None else max_steps
-    model = DiffraxModel(system, functions, tables, _How(method, stepsize_controller, dt is not None, most))
+    model = DiffraxModel(system, functions, tables, method, stepsize_controller, dt is not None)
     name = type(method).__name__
     relative = jnp.asarray(rtol, float)
     absolute = jnp.broadcast_to(plain.ATOL * relative if atol is None else jnp.asarray(atol, float), (low.n_x,))
@@ -342,31 +344,28 @@ def simulate_events(
     how = Tolerances(float(relative), np.asarray(absolute), float(step), most)
     started, run = model.run(t0, t1, output_times(saveat, t0, t1), given, how, check=throw)
     seconds = time.perf_counter() - begin
-    return _finished(model, given, started, run, name, seconds, t1, throw)
+    return _finished(model, started, run, how, seconds, t1, throw)
 
 
 def _finished(
-    model: DiffraxModel, given: Given, started: Started, run: HybridRun, method: str, seconds: float, t1: float,
-    throw: bool,
-) -> Solution:  # fmt: skip
+    model: DiffraxModel, started: Started, run: HybridRun, how: Tolerances, seconds: float, t1: float, throw: bool
+) -> Solution:
     """The solution of a run with numbers; raises where it failed."""
     system, n_x = model.system, model.system.lowered.n_x
-    result = RESULTS[run.code] if run.code else "successful" if run.ended is None else f"terminated: {run.ended}"
     stats: dict[str, Any] = {k: run.counts[k] for k in ("steps", "accepted", "rejected")}
     stats |= {"compile_seconds": model.compile_seconds, "run_seconds": seconds - model.compile_seconds}
-    stats |= {"solver": method, "t_end": run.t_end}
-    lowered, numbers = model.driven(given)
+    stats |= {"solver": type(model.method).__name__, "t_end": run.t_end}
+    lowered, numbers = _driven(started.iteration)
     vector: Any = jnp.asarray(run.p_end)
     vector = (vector, numbers) if isinstance(lowered, DrivenLowered) else vector
     solution = Solution(
-        system, run.save, run.z[:, :n_x], run.z[:, n_x:], vector, stats=stats, result=result,
+        system, run.save, run.z[:, :n_x], run.z[:, n_x:], vector, stats=stats, result=run.result,
         events=tuple(run.events), lowered=lowered, slots=run.slots,
     )  # fmt: skip
     solution.strict = throw
     if throw and run.code:
         last = run.t_end, run.z_end[:n_x], run.z_end[n_x:]
-        text = explain(system, lowered, result, stats, last, solution.p, t1, model.how.max_steps)
-        raise SimulationError(text)
+        raise SimulationError(explain(system, lowered, run.result, stats, last, solution.p, t1, how.max_steps))
     return solution
 
 

@@ -87,6 +87,13 @@ class HybridRun:
     save: Floats
     closed: bool
 
+    @property
+    def result(self) -> str:
+        """`"successful"`, or what ended the run early."""
+        if self.code:
+            return RESULTS[self.code]
+        return "successful" if self.ended is None else f"terminated: {self.ended}"
+
 
 @dataclass(eq=False)
 class _Record:

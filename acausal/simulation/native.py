@@ -25,7 +25,7 @@ from .hybrid_tangents import run_with_tangents
 from .native_build import build
 from .native_library import METHODS, Floats, NativeLibrary, Run, Signal
 from .start_tangents import StartTangents
-from .started import Given, Seed, Started, Tolerances, given_mask, own_conditions
+from .started import Given, Seed, Started, Tolerances, given_values, own_conditions, put_signals
 
 LARGEST = 1_000
 """Operations up to which a system is written out in C: compiling grows faster than their number."""
@@ -43,9 +43,7 @@ class NativeEquations:
 
     def feed(self, t: float, p: Floats) -> None:
         """Inputs at time t into p."""
-        first = self.model.system.program.flat.n_par
-        for k, (times, values) in enumerate(self.signals):
-            p[first + k] = np.interp(t, times, values)
+        put_signals(p[self.model.system.program.flat.n_par :], self.signals, t)
 
     def settle(self, t: float, z: Floats, p: Floats) -> Floats | None:
         """z with the algebraic unknowns solved for."""
@@ -89,10 +87,7 @@ class NativeModel:
         """
         system = self.system
         program, problem = system.program, system.initial
-        p = program.base.copy()
-        mask = given_mask(system, given.parameters, p)
-        for k, (times, values) in enumerate(given.signals):
-            p[program.flat.n_par + k] = np.interp(t0, times, values)
+        p, mask = given_values(system, t0, given)
         if self.large:
             p = program.completed(p, mask.astype(bool))
             starts = program.starts(p, np)

@@ -75,14 +75,22 @@ def parameter_ids(system: Any, name: str) -> Any:
     return cache[name]
 
 
-def given_mask(system: Any, parameters: Mapping[str, Any], p: Floats) -> Any:
-    """Which parameters are given, (n_p,); their values are put into p."""
-    mask = np.zeros(system.program.n_p, np.uint8)
-    for name, value in parameters.items():
+def given_values(system: Any, t0: float, given: Given) -> tuple[Floats, Any]:
+    """Parameters and inputs at t0 with the values given, dependent ones not yet; and which are given, (n_p,)."""
+    program = system.program
+    p, mask = program.base.copy(), np.zeros(program.n_p, np.uint8)
+    for name, value in given.parameters.items():
         ids = parameter_ids(system, name)
         mask[ids] = 1
         p[ids] = np.broadcast_to(np.asarray(value, float), ids.shape)
-    return mask
+    put_signals(p[program.flat.n_par :], given.signals, t0)
+    return p, mask
+
+
+def put_signals(inputs: Floats, signals: Sequence[Signal], t: float) -> None:
+    """The values of the signals at time t, into the first places of `inputs`."""
+    for k, (times, values) in enumerate(signals):
+        inputs[k] = np.interp(t, times, values)
 
 
 def own_conditions(problem: InitialProblem, overrides: Mapping[int, Any]) -> bool:

@@ -31,13 +31,6 @@ from .solution import Solution
 from .started import Given, Seed, Started, Tolerances, parameter_ids
 from .watch import Stop, watch
 
-OUTSIDE = (
-    "The diffrax engine carries out events outside of JAX's programs, where the values are known: jax.grad, jax.jacfwd "
-    "and jax.jacrev of a run with events work; inside of jit or vmap (and so in a calibration or an ensemble) it "
-    "cannot run. The native engine can (engine='native'; it needs a C compiler); and events=False switches events off "
-    "where the model has conditions only."
-)
-
 
 class Model(Protocol):
     """What an engine offers: a run, and one with derivatives, as `acausal.simulation.native.NativeModel`."""
