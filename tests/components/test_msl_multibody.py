@@ -9,13 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
 import pytest
 
 import acausal as ac
 
 from . import msl_constraints, msl_drives_3d, msl_elementary, msl_engines, msl_loops
-from .test_msl import read
+from .tube import assert_within
 
 MODELS: dict[str, Callable[[], ac.Component]] = {
     "ForceAndTorque": msl_elementary.force_and_torque,
@@ -48,10 +47,4 @@ NAMES = [pytest.param(name, marks=pytest.mark.slow) if name in LARGE else name f
 @pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", NAMES)
 def test_within_the_tube(name: str, engine: Any) -> None:
-    header, values = read(name)
-    t = values[:, 0]
-    solution = ac.compile(MODELS[name]()).simulate(t1=float(t[-1]), saveat=t, rtol=1e-8, engine=engine)
-    for column, signal in enumerate(header[1:], start=1):
-        reference = values[:, column]
-        error = np.max(np.abs(np.asarray(solution[signal]) - reference))
-        assert error <= 2e-3 * np.ptp(reference), f"{signal}: {error}"
+    assert_within(name, MODELS[name](), engine)

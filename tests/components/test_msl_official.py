@@ -19,7 +19,7 @@ from acausal.components.examples import assemble, start
 
 from . import msl_characteristics, msl_circuits, msl_drives, msl_mechanisms, msl_shafts, msl_slides
 from .msl_hybrid import coupled_clutches
-from .test_msl import read
+from .tube import assert_within
 
 MODELS: dict[str, Callable[[], ac.Component]] = {
     "CoupledClutches": coupled_clutches, "Friction": msl_drives.friction,
@@ -54,13 +54,7 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
 @pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", MODELS)
 def test_within_the_tube(name: str, engine: Any) -> None:
-    header, values = read(name)
-    t = values[:, 0]
-    solution = ac.compile(MODELS[name]()).simulate(t1=float(t[-1]), saveat=t, rtol=1e-8, engine=engine)
-    for column, signal in enumerate(header[1:], start=1):
-        reference = values[:, column]
-        error = np.max(np.abs(np.asarray(solution[signal]) - reference))
-        assert error <= 2e-3 * np.ptp(reference), f"{signal}: {error}"
+    assert_within(name, MODELS[name](), engine)
 
 
 def test_ideal_lossy_gear_is_free() -> None:

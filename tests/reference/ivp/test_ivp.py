@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
-import sys
-from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -14,20 +10,7 @@ from scipy.integrate import solve_ivp
 
 import acausal as ac
 
-
-def _problems() -> ModuleType:
-    """The module beside this file (tests are no package)."""
-    name = "ivp_problems"
-    if name not in sys.modules:
-        spec = importlib.util.spec_from_file_location(name, Path(__file__).with_name("problems.py"))
-        assert spec is not None and spec.loader is not None
-        module = importlib.util.module_from_spec(spec)
-        sys.modules[name] = module
-        spec.loader.exec_module(module)
-    return sys.modules[name]
-
-
-problems = _problems()
+from . import problems
 
 # absolute tolerance where the solution is far smaller than 1
 ATOL: dict[str, float] = {"robertson_dae": 1e-14}

@@ -6,11 +6,7 @@ with ``Cs = 0``; the published values are for ``Cs = 2e-12``, whose fast oscilla
 
 from __future__ import annotations
 
-import importlib.util
 import re
-import sys
-from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -18,20 +14,7 @@ import pytest
 
 import acausal as ac
 
-
-def _problems() -> ModuleType:
-    """The module beside this file (tests are no package)."""
-    name = "ivp_problems"
-    if name not in sys.modules:
-        spec = importlib.util.spec_from_file_location(name, Path(__file__).with_name("problems.py"))
-        assert spec is not None and spec.loader is not None
-        module = importlib.util.module_from_spec(spec)
-        sys.modules[name] = module
-        spec.loader.exec_module(module)
-    return sys.modules[name]
-
-
-problems = _problems()
+from . import problems
 
 # a Radau IIA method of order 3 with 20 000 and 40 000 equal steps, applied to the equations as they are; its two
 # results differ by less than 5e-5
