@@ -7,6 +7,24 @@ from acausal.components import blocks, multibody, rotational, thermal, translati
 from acausal.components.examples import assemble, start
 
 
+def hanging(x: float) -> multibody.Body:
+    """A body at `x` that turns by two degrees per second about z."""
+    return multibody.Body(
+        m=1.0, r_CM=(0.0, -0.2, 0.0), I_11=0.1, I_22=0.1, I_33=0.1, r_0=start((x, -0.2, 0.0), fixed=True),
+        v_0=start((0.0, 0.0, 0.0), fixed=True), angles_fixed=True, w_0_fixed=True,
+        w_0_start=(0.0, 0.0, 0.03490658503988659),
+    )  # fmt: skip
+
+
+def wheel_set() -> multibody.RollingWheelSet:
+    """A set of wheels at rest, off the origin."""
+    rest = start(0.0, fixed=True)
+    return multibody.RollingWheelSet(
+        R_wheel=0.1, m_wheel=0.5, I_wheelAxis=0.01, I_wheelLong=0.02, track=0.5, x=start(0.1, fixed=True),
+        y=start(0.1, fixed=True), phi=rest, theta1=rest, theta2=rest, der_theta1=rest, der_theta2=rest,
+    )  # fmt: skip
+
+
 def force_and_torque() -> Component:
     """MultiBody.Examples.Elementary.ForceAndTorque."""
     return assemble(
@@ -75,18 +93,7 @@ def spring_damper_system() -> Component:
         "damper1.frame_b - body1.frame_a",
         "spring1.frame_b - body1.frame_a",
         world=inner(multibody.World()),
-        body1=multibody.Body(
-            m=1.0,
-            r_CM=(0.0, -0.2, 0.0),
-            I_11=0.1,
-            I_22=0.1,
-            I_33=0.1,
-            r_0=start((0.3, -0.2, 0.0), fixed=True),
-            v_0=start((0.0, 0.0, 0.0), fixed=True),
-            angles_fixed=True,
-            w_0_fixed=True,
-            w_0_start=(0.0, 0.0, 0.03490658503988659),
-        ),
+        body1=hanging(0.3),
         bar1=multibody.FixedTranslation(r=(0.3, 0.0, 0.0)),
         bar2=multibody.FixedTranslation(r=(0.6, 0.0, 0.0)),
         body2=multibody.Body(m=1.0, r_CM=(0.0, 0.0, 0.0)),
@@ -165,49 +172,16 @@ def heat_losses() -> Component:
         "springDamper.heatPort - convection.solid",
         "springDamperSeries.heatPort - convection.solid",
         world=inner(multibody.World()),
-        body1=multibody.Body(
-            m=1.0,
-            r_CM=(0.0, -0.2, 0.0),
-            I_11=0.1,
-            I_22=0.1,
-            I_33=0.1,
-            r_0=start((0.3, -0.2, 0.0), fixed=True),
-            v_0=start((0.0, 0.0, 0.0), fixed=True),
-            angles_fixed=True,
-            w_0_fixed=True,
-            w_0_start=(0.0, 0.0, 0.034906585039887),
-        ),
+        body1=hanging(0.3),
         bar1=multibody.FixedTranslation(r=(0.3, 0.0, 0.0)),
         bar2=multibody.FixedTranslation(r=(0.3, 0.0, 0.0)),
         spring1=multibody.Spring(s_unstretched=0.1, c=30.0),
         damper1=multibody.Damper(d=2.0, useHeatPort=True),
         springDamper=multibody.SpringDamperParallel(d=2.0, c=30.0, s_unstretched=0.1, useHeatPort=True),
-        body2=multibody.Body(
-            m=1.0,
-            r_CM=(0.0, -0.2, 0.0),
-            I_11=0.1,
-            I_22=0.1,
-            I_33=0.1,
-            v_0=start((0.0, 0.0, 0.0), fixed=True),
-            angles_fixed=True,
-            w_0_fixed=True,
-            w_0_start=(0.0, 0.0, 0.034906585039887),
-            r_0=start((0.6, -0.2, 0.0), fixed=True),
-        ),
+        body2=hanging(0.6),
         bar3=multibody.FixedTranslation(r=(0.3, 0.0, 0.0)),
         springDamperSeries=multibody.SpringDamperSeries(d=2.0, c=30.0, s_unstretched=0.1, useHeatPort=True),
-        body3=multibody.Body(
-            m=1.0,
-            r_CM=(0.0, -0.2, 0.0),
-            I_11=0.1,
-            I_22=0.1,
-            I_33=0.1,
-            v_0=start((0.0, 0.0, 0.0), fixed=True),
-            angles_fixed=True,
-            w_0_fixed=True,
-            w_0_start=(0.0, 0.0, 0.034906585039887),
-            r_0=start((0.9, -0.2, 0.0), fixed=True),
-        ),
+        body3=hanging(0.9),
         spring=multibody.Spring(s_unstretched=0.2, c=30.0),
         const=blocks.Constant(k=20.0),
         convection=thermal.Convection(),
@@ -306,20 +280,7 @@ def rolling_wheel_set_driving() -> Component:
         "sine1.y - torque1.tau",
         "sine2.y - torque2.tau",
         world=inner(multibody.World(n=(0.0, 0.0, -1.0))),
-        wheelSet=multibody.RollingWheelSet(
-            R_wheel=0.1,
-            m_wheel=0.5,
-            I_wheelAxis=0.01,
-            I_wheelLong=0.02,
-            track=0.5,
-            x=start(0.1, fixed=True),
-            y=start(0.1, fixed=True),
-            phi=start(0.0, fixed=True),
-            theta1=start(0.0, fixed=True),
-            theta2=start(0.0, fixed=True),
-            der_theta1=start(0.0, fixed=True),
-            der_theta2=start(0.0, fixed=True),
-        ),
+        wheelSet=wheel_set(),
         body=multibody.Body(m=0.01, r_CM=(0.0, 0.0, 0.0)),
         fixedTranslation=multibody.FixedTranslation(r=(0.2, 0.0, 0.0)),
         sine1=blocks.Sine(f=1.0, amplitude=2.0),
@@ -343,20 +304,7 @@ def rolling_wheel_set_pulling() -> Component:
         "force.frame_b - fixedTranslation.frame_b",
         force=multibody.WorldForce(),
         world=inner(multibody.World(n=(0.0, 0.0, -1.0))),
-        wheelSet=multibody.RollingWheelSet(
-            R_wheel=0.1,
-            m_wheel=0.5,
-            I_wheelAxis=0.01,
-            I_wheelLong=0.02,
-            track=0.5,
-            x=start(0.1, fixed=True),
-            y=start(0.1, fixed=True),
-            phi=start(0.0, fixed=True),
-            theta1=start(0.0, fixed=True),
-            theta2=start(0.0, fixed=True),
-            der_theta1=start(0.0, fixed=True),
-            der_theta2=start(0.0, fixed=True),
-        ),
+        wheelSet=wheel_set(),
         body=multibody.Body(m=0.01, r_CM=(0.0, 0.0, 0.0)),
         x=blocks.CombiTimeTable(table=PULLS, column=2),
         y=blocks.CombiTimeTable(table=PULLS, column=3),
