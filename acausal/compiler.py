@@ -12,7 +12,7 @@ from .errors import DeclarationError, StructureError
 from .language.component import Component
 from .language.flat_model import FlatModel
 from .language.flatten import flatten
-from .language.template import Floats
+from .language.template import Floats, Ints
 from .lowering.hybrid import make_hybrid
 from .lowering.initial import initial_problem
 from .lowering.lowered import Lowered
@@ -27,6 +27,7 @@ from .passes.schedule import make_schedule
 from .passes.specialize import specialize
 from .passes.states import select_states
 from .passes.structure import check_structure
+from .passes.vanishing import explained, vanishing_zeros, with_zeros
 from .system import Stages, System
 from .units import check_units
 
@@ -113,6 +114,10 @@ def _passes(written: FlatModel, clock: Clock, counts: dict[str, int], *, located
     reduced = clock("aliases", lambda: eliminate_aliases(flat))
     clock("structure check", lambda: check_structure(reduced))
     low_index = clock("index reduction", lambda: regularize(reduced, program.generic))
+    zeros = clock("zeros", lambda: vanishing_zeros(low_index, program))
+    if len(zeros):
+        return _without(zeros, written, clock, counts, located=located)
+    low_index.settle(flat)
     selected = clock("states", lambda: select_states(low_index, program.default))
     schedule = clock("sort and tear", lambda: make_schedule(selected, program.default))
     infer_guesses(schedule, reduced, program.default, program.starts(program.default, np))
@@ -125,6 +130,14 @@ def _passes(written: FlatModel, clock: Clock, counts: dict[str, int], *, located
     problem = initial_problem(reduced, lowered, initial, with_start)
     stages = Stages(flat, reduced, low_index, schedule, counts, clock.seconds)
     return System(stages, program, lowered, problem, written, make_hybrid(flat, *extended))
+
+
+def _without(zeros: Ints, written: FlatModel, clock: Clock, counts: dict[str, int], *, located: bool) -> System:
+    """All passes once more with what these parameters, which are zero, take out of the equations left out."""
+    try:
+        return _passes(clock("evaluate", lambda: with_zeros(written, zeros)), clock, counts, located=located)
+    except StructureError as error:
+        raise explained(error, written, zeros) from error
 
 
 def located_twin(system: System) -> System:

@@ -31,6 +31,8 @@ from .symbolic.expr import Expr
 from .symbolic.printing import path_text
 
 if TYPE_CHECKING:
+    import diffrax
+
     from .analysis.ensemble import Ensemble
     from .analysis.linearize import StateSpace
     from .simulation.solution import Solution
@@ -341,8 +343,13 @@ class System:
         atol: Any = None,
         solver: Any = None,
         engine: Literal["auto", "diffrax", "native"] = "auto",
-        events: bool = True,
-        **options: Any,
+        events: Any = True,
+        max_steps: int | None = None,
+        throw: bool = True,
+        progress: bool = False,
+        dt: Any = None,
+        stepsize_controller: diffrax.AbstractStepSizeController[Any, Any] | None = None,
+        adjoint: diffrax.AbstractAdjoint | None = None,
     ) -> Solution:
         """Simulate from t0 to t1. Differentiable in `parameters` and `initial`.
 
@@ -358,8 +365,13 @@ class System:
             solver: ``"rodas5p"`` (the default, for stiff models), ``"rk4"`` (fixed steps `dt`), ``"adams"`` (variable
                 order and step, for models that are not stiff), or a diffrax solver.
             engine: ``native`` (generated C), ``diffrax``, or ``auto``: native where it can do what is asked.
-            events: whether events are handled.
-            **options: see `acausal.simulation.simulate.simulate`.
+            events: whether events are handled, or a `diffrax.Event`.
+            max_steps: most steps, taken and rejected together.
+            throw: raise `SimulationError` when the solve fails; otherwise the solution ends early and says so.
+            progress: show a progress bar.
+            dt: step [s] of a fixed-step solve, or the first step of another.
+            stepsize_controller: of diffrax, in place of the error control with the tolerances.
+            adjoint: how diffrax differentiates.
 
         Raises:
             UnknownNameError, InitializationError, SimulationError: see the message.
@@ -368,7 +380,8 @@ class System:
 
         return simulate(
             self, t1, t0=t0, parameters=parameters, initial=initial, inputs=inputs, saveat=saveat, rtol=rtol, atol=atol,
-            solver=solver, engine=engine, events=events, **options,
+            solver=solver, engine=engine, events=events, max_steps=max_steps, throw=throw, progress=progress, dt=dt,
+            stepsize_controller=stepsize_controller, adjoint=adjoint,
         )  # fmt: skip
 
     def ensemble(self, parameters: Any, t1: float, **options: Any) -> Ensemble:

@@ -7,7 +7,7 @@ of ten thousand rows. Every later stage works on families.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -183,6 +183,12 @@ class FlatModel:
     def names(self) -> Names:
         """Names of variables and parameters."""
         return Names(self.root)
+
+    def changed(self, **fields: Any) -> FlatModel:
+        """A copy with other values of some fields."""
+        made = replace(self, **fields)
+        made.__dict__["names"] = self.names
+        return made
 
     def name(self, index: int) -> str:
         """Name of a variable or derivative: ``x``, ``der(x)``, ``der(x, 2)``."""

@@ -58,7 +58,8 @@ def evaluated_text(flat: FlatModel, ids: Any) -> str:
     names = ", ".join(f"`{flat.parameter_name(int(i))}`" for i in ids[:SHOWN])
     are = "is" if len(ids) == 1 else "are"
     return (
-        f"{names} {are} built into the equations (Parameter(evaluate=True), or such a parameter is computed from it): "
+        f"{names} {are} built into the equations (Parameter(evaluate=True), a zero that takes an unknown out of its "
+        "equation, or such a parameter is computed from it): "
         "construct the model with the new value and compile it again"
     )
 

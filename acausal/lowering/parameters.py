@@ -76,11 +76,17 @@ class ParameterProgram:
             starts[assignment.targets] = _moved(assignment, p, dp)
         return starts
 
-    def generic(self, random: np.random.Generator) -> Floats:
-        """Parameter values in general position near the defaults (n_p,), dependent ones evaluated."""
+    def generic(self, random: np.random.Generator, *, keep_zeros: bool = False) -> Floats:
+        """Parameter values in general position near the defaults (n_p,), dependent ones evaluated.
+
+        Args:
+            random: draws them.
+            keep_zeros: whether a value of zero stays one.
+        """
         noise = random.uniform(0.02, 0.2, self.n_p)
         values = np.where(np.isnan(self.base), 1.0 + noise, self.base * (1.0 + noise))
-        values = np.where(values == 0.0, noise, values)
+        if not keep_zeros:
+            values = np.where(values == 0.0, noise, values)
         held = self.n_p - self.flat.slots.count
         values[held:] = self.base[held:]
         for assignment in self.ordered:

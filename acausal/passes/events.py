@@ -9,7 +9,7 @@ Modelica Language Specification 3.6, 8.5 and Appendix B.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -44,9 +44,7 @@ def extract_events(flat: FlatModel, *, located: bool = True) -> FlatModel:
     actions = [work.family(f, "action") for f in flat.actions]
     if not work.changed:
         return flat
-    made = replace(flat, families=families, initial=initial, actions=actions, slots=work.slots)
-    made.__dict__["names"] = flat.names
-    return made
+    return flat.changed(families=families, initial=initial, actions=actions, slots=work.slots)
 
 
 @dataclass(eq=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -90,6 +90,11 @@ class IndexReduced:
         before[self.row_derivative[lower]] = lower
         return before
 
+    def settle(self, flat: FlatModel) -> None:
+        """Add the derivatives that differentiation brought in to the flat model itself."""
+        extend(flat, self.derivative_of, self.parent)
+        self.flat = flat
+
     def name(self, index: int) -> str:
         """Name of a variable or derivative, those that differentiation brought in included."""
         order = 0
@@ -166,8 +171,7 @@ def reduce_index(reduced: Reduced) -> IndexReduced:
 
 def extended(flat: FlatModel, derivative_of: Ints, parent: Ints) -> FlatModel:
     """A copy of `flat` with the derivatives that differentiation brought in."""
-    copy = replace(flat)
-    copy.__dict__["names"] = flat.names
+    copy = flat.changed()
     extend(copy, derivative_of, parent)
     return copy
 

@@ -164,12 +164,12 @@ def _native(
     system: Any, t1: Any, *, t0: Any = 0.0, parameters: Mapping[str, Any] | None = None,
     initial: Mapping[str, Any] | None = None, inputs: Mapping[str, Any] | None = None, saveat: Any = None,
     rtol: Any = 1e-6, atol: Any = None, events: Any = True, max_steps: int | None = None, throw: bool = True,
-    progress: bool = False, dt: Any = None, solver: str = "rodas5p", **rest: Any,
+    progress: bool = False, dt: Any = None, solver: str = "rodas5p",
 ) -> Solution:  # fmt: skip
-    """Run with the native engine."""
+    """Run with the native engine; that it can do what is asked is known (`why_not_native`)."""
     if solver == "rk4" and dt is None:
         raise SimulationError("The method 'rk4' takes fixed steps: give the step, `simulate(..., dt=1e-3)`.")
-    del events, rest
+    del events
     if max_steps is None:
         max_steps = MAX_STEPS if solver == "rodas5p" else MAX_EXPLICIT_STEPS
     model = native_model(system)

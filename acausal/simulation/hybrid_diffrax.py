@@ -8,6 +8,7 @@ from __future__ import annotations
 import functools
 import time
 from collections.abc import Mapping, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import Any
 
@@ -43,6 +44,7 @@ from .start_tangents import StartTangents
 from .started import Given, Seed, Started, Tolerances, given_values
 from .switch import Switch
 from .traced import Way, simulate_traced
+from .watch import watch
 
 SLACK = 1e-12
 TIME = 1e-14
@@ -315,13 +317,18 @@ def simulate_events(
     system: Any, t1: Any, *, t0: Any = 0.0, parameters: Mapping[str, Any] | None = None,
     initial: Mapping[str, Any] | None = None, inputs: Mapping[str, Any] | None = None, saveat: Any = None,
     rtol: Any = 1e-6, atol: Any = None, solver: Any = None, max_steps: int | None = None, throw: bool = True,
-    dt: Any = None, stepsize_controller: Any = None, **rest: Any,
+    dt: Any = None, stepsize_controller: Any = None, adjoint: Any = None, events: Any = True, progress: bool = False,
 ) -> Solution:  # fmt: skip
     """As `acausal.simulation.simulate.simulate`, for a system with events; values are numbers, or differentiated."""
     if not values_are_known((t0, t1, parameters, initial, inputs, saveat, rtol, atol, dt)):
         raise SimulationError(OUTSIDE)
-    if rest.get("adjoint") is not None:
+    if adjoint is not None:
         raise SimulationError("`adjoint=` has no meaning in a run with events.")
+    if events is not True:
+        raise SimulationError(
+            "`events=` with a diffrax event does not go with the model's own events: end the run with "
+            "`terminate` in a `when` of the model."
+        )
     functions = {k: v for k, v in (inputs or {}).items() if callable(v)}
     signals = all_signals(system, {k: v for k, v in (inputs or {}).items() if k not in functions})
     tables = tuple(k for k, (t, _) in zip(system.input_names, signals, strict=True) if np.shape(t)[0] > 1)
@@ -342,7 +349,8 @@ def simulate_events(
     begin = time.perf_counter()
     given = Given(parameters or {}, initial or {}, [(np.asarray(t, float), np.asarray(v, float)) for t, v in signals])
     how = Tolerances(float(relative), np.asarray(absolute), float(step), most)
-    started, run = model.run(t0, t1, output_times(saveat, t0, t1), given, how, check=throw)
+    with watch.showing(t0, t1) if progress else nullcontext():
+        started, run = model.run(t0, t1, output_times(saveat, t0, t1), given, how, check=throw)
     seconds = time.perf_counter() - begin
     return _finished(model, started, run, how, seconds, t1, throw)
 

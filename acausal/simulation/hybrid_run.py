@@ -16,6 +16,7 @@ from acausal.lowering.hybrid import Hybrid
 from .accumulation import TurnedBack
 from .event_iteration import EventIteration, Outcome
 from .native_library import RESULTS, Floats
+from .watch import watch
 
 CLOSE, SHRINKING, MANY_SHRINKING = 1e-7, 0.999, 20
 """So many events in a row, each sooner than the last, up to this part of the run: they accumulate."""
@@ -199,6 +200,7 @@ def run_hybrid(
         p = record.segment(segment, p)
         saved += segment.saved
         t, z_end, code = segment.t_end, segment.z_end, segment.code
+        watch.reached(t)
         if code in (0, EVENT):
             record.unresolved(turned.segment(t, z_end, p, segment.switched if code == EVENT else None))
         if code not in (0, EVENT):

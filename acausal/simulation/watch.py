@@ -8,6 +8,7 @@ from __future__ import annotations
 import ctypes
 import sys
 import threading
+import time
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -36,6 +37,7 @@ class Watch(threading.local):
     def __init__(self) -> None:
         self.show: Callable[[float], None] | None = None
         self.stop: Stop | None = None
+        self.shown_at = 0.0
         calls = self._calls()
         next(calls)
         # a suspended generator: a signal that arrives when it resumes is raised inside its `try`
@@ -52,6 +54,13 @@ class Watch(threading.local):
             except KeyboardInterrupt:
                 end = 1
 
+    def reached(self, t: float) -> None:
+        """What runs in Python is at time t; shown about once a second."""
+        now = time.monotonic()
+        if self.show is not None and now - self.shown_at >= 1.0:
+            self.shown_at = now
+            self.show(t)
+
     @contextmanager
     def stopping(self, stop: Stop) -> Iterator[None]:
         """Solves of this thread end when `stop` is asked to."""
@@ -65,7 +74,7 @@ class Watch(threading.local):
     def showing(self, t0: float, t1: float, stream: TextIO | None = None) -> Iterator[None]:
         """Write how far a solve from t0 to t1 is, from the first second on."""
         line = _Line(t0, t1, stream or sys.stderr)
-        self.show = line
+        self.show, self.shown_at = line, time.monotonic()
         try:
             yield
         finally:

@@ -92,10 +92,13 @@ class PartialBipolar(PartialTemperatureDependent, partial=True):
         yield self.qbk == 1 - vbc * self.Vak
         yield self.ibc == saturation * (exp_c - 1) + vbc * self.Gbc
         yield self.ibe == saturation * (exp_e - 1) + vbe * self.Gbe
-        yield self.cbc == self.Taur * saturation / over_c * exp_c + self.Cjc * powlin(vbc / self.Phic, self.Mc)
-        yield self.cbe == self.Tauf * saturation / over_e * exp_e + self.Cje * powlin(vbe / self.Phie, self.Me)
+        cbc = self.Taur * saturation / over_c * exp_c + self.Cjc * powlin(vbc / self.Phic, self.Mc)
+        cbe = self.Tauf * saturation / over_e * exp_e + self.Cje * powlin(vbe / self.Phie, self.Me)
+        yield self.cbc == cbc
+        yield self.cbe == cbe
         yield self.iS == -self.Ccs * der(self.C.v - substrate)
-        charge_c, charge_e = self.cbc * der(vbc), self.cbe * der(vbe)
+        # with the expressions in full: where all times and capacitances are zero, they take the derivatives out
+        charge_c, charge_e = cbc * der(vbc), cbe * der(vbe)
         transport = (self.ibe - self.ibc) * self.qbk
         yield self.C.i == s * (transport - self.ibc / beta_r - charge_c) - self.iS
         yield self.B.i == s * (self.ibe / beta_f + self.ibc / beta_r + charge_c + charge_e)
