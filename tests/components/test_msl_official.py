@@ -17,7 +17,7 @@ import acausal as ac
 from acausal.components import blocks, electrical, rotational, thermal
 from acausal.components.examples import assemble, start
 
-from . import msl_characteristics, msl_circuits, msl_drives, msl_mechanisms, msl_shafts, msl_slides
+from . import msl_characteristics, msl_circuits, msl_drives, msl_gates, msl_mechanisms, msl_shafts, msl_slides
 from .msl_hybrid import coupled_clutches
 from .tube import assert_within
 
@@ -48,6 +48,7 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
     "ShowVariableResistor": msl_characteristics.show_variable_resistor,
     "OvervoltageProtection": msl_characteristics.overvoltage_protection,
     "InvertingAmp": msl_characteristics.inverting_amp, "SchmittTrigger": msl_characteristics.schmitt_trigger,
+    "HeatingNPN_NORGate": msl_gates.heating_npn_norgate, "HeatingPNP_NORGate": msl_gates.heating_pnp_norgate,
 }  # fmt: skip
 
 

@@ -203,3 +203,10 @@ def test_a_point_that_is_finite_has_no_culprit(tmp_path: Path) -> None:
     system = ac.compile(RC())
     x0, w0, p = system.initialize()
     assert system.diagnose_nonfinite(0.0, x0, w0, p) is None
+
+
+def test_a_misspelt_option_is_refused(tmp_path: Path) -> None:
+    """Else a run with the default values would pass for one with those given."""
+    for engine in ("auto", "diffrax"):
+        text = f"ac.compile(RC()).simulate(1.0, engine={engine!r}, parametres={{}})\n"
+        error_of(tmp_path, text, TypeError, ["unexpected keyword argument 'parametres'"])

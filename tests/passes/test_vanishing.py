@@ -124,7 +124,8 @@ def test_what_a_zero_made_of_the_model_cannot_be_changed_in_a_run() -> None:
 
 
 def test_a_model_that_a_zero_makes_singular() -> None:
-    model = assemble("drive.flange - rotor.flange_a", drive=rot.ConstantTorque(tau_constant=1.0), rotor=rot.Inertia(J=0))
+    rotor, drive = rot.Inertia(J=0.0), rot.ConstantTorque(tau_constant=1.0)
+    model = assemble("drive.flange - rotor.flange_a", drive=drive, rotor=rotor)
     with pytest.raises(StructureError) as caught:
         ac.compile(model)
     text = str(caught.value)
