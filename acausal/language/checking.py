@@ -151,7 +151,9 @@ def constraint_of(cls: type[Instance], name: str) -> type[Instance]:
     arguments = getattr(annotation, "__args__", None)
     if arguments:
         annotation = arguments[0]
-    return annotation if isinstance(annotation, type) and issubclass(annotation, Instance) else type(element)
+    if isinstance(annotation, type) and issubclass(annotation, Instance):
+        return annotation
+    return type(element)._generic or type(element)
 
 
 def _evaluate_annotation(cls: type[Instance], text: str) -> Any:

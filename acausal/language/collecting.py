@@ -12,7 +12,8 @@ from .children import Child
 from .declarations import Declaration, Structural
 from .fields import Array, Conditional, Shared
 from .instance import Instance
-from .vectors import Quantities
+from .sizes import sizes_of
+from .vectors import Quantities, Vector
 
 
 def collect(cls: type[Instance]) -> None:
@@ -46,6 +47,24 @@ def collect(cls: type[Instance]) -> None:
                 f"({cls._source[0]}:{cls._source[1]})"
             )
     cls._declarations, cls._structural, cls._children, cls._vectors = declarations, structural, children, vectors
+    _resize(cls)
+
+
+def _resize(cls: type[Instance]) -> None:
+    """Give the vectors with a structural size their elements, behind the other quantities."""
+    cls._sizes = {k: v.size for k, v in cls._vectors.items() if isinstance(v, Vector) and isinstance(v.size, str)}
+    if not cls._sizes:
+        return
+    if "_generic" not in cls.__dict__:
+        cls._generic, cls._made, cls._lengths = None, {}, sizes_of(cls, {})
+    for name, length in zip(cls._sizes, cls._lengths, strict=True):
+        old: Any = cls._vectors[name]
+        new = old.resized(cls, length)
+        for element in old.names():
+            cls._declarations.pop(element, None)
+        cls._declarations.update(zip(new.names(), new.elements, strict=True))
+        cls._vectors[name] = new
+        type.__setattr__(cls, name, new)
 
 
 def _known(name: str, *tables: Mapping[str, Any]) -> bool:

@@ -13,6 +13,7 @@ from .checking import by_element, checked
 from .children import present
 from .collecting import collect
 from .instance import Instance, call_site, field_names, path_of, record
+from .sizes import sized
 from .vectors import VectorEquation
 
 if TYPE_CHECKING:
@@ -49,9 +50,12 @@ class Component(Instance):
 
     def __init__(self, **modifications: Any) -> None:
         # modifications are checked one by one below; the class body gives the type checker their names and types
-        modifications = by_element(type(self), modifications)
+        cls = _fitting(type(self), {}, modifications)
+        if cls is not type(self):
+            object.__setattr__(self, "__class__", cls)
+        modifications = by_element(cls, modifications)
         for name, value in modifications.items():
-            modifications[name] = checked(type(self), name, value)
+            modifications[name] = checked(cls, name, value)
         self.__dict__["_mods"] = {**self._implied(modifications), **modifications}
         self.__dict__["_path"] = ()
 
@@ -125,9 +129,19 @@ def _recorded(cls: type[Component], name: str, function: Any) -> Any:
     return run
 
 
+def _fitting(cls: type[C], old: Mapping[str, Any], new: Mapping[str, Any]) -> type[C]:
+    """`cls` with vectors of the sizes that modifications ask for, the `new` ones of which are to be checked."""
+    if not cls._sizes:
+        return cls
+    return sized(cls, {**old, **{k: checked(cls, k, v) for k, v in new.items() if k in cls._structural}})
+
+
 def with_modifications(component: C, mods: Mapping[str, Any]) -> C:
     """A copy of `component` with modifications added (checked)."""
-    new = {k: checked(type(component), k, v) for k, v in by_element(type(component), mods).items()}
-    together = {**component.__dict__["_mods"], **new}
+    old = component.__dict__["_mods"]
+    cls = _fitting(type(component), old, mods)
+    new = {k: checked(cls, k, v) for k, v in by_element(cls, mods).items()}
+    kept = old if cls is type(component) else {k: v for k, v in old.items() if k in field_names(cls)}
+    together = {**kept, **new}
     implied = {k: v for k, v in component._implied(together).items() if k not in new}
-    return record(type(component), {**together, **implied})
+    return record(cls, {**together, **implied})

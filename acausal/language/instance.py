@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from ..symbolic.printing import path_text
+from .sizes import sized
 
 if TYPE_CHECKING:
     from .children import Child
@@ -23,13 +24,17 @@ class Instance:
     _structural: ClassVar[dict[str, Structural]] = {}
     _children: ClassVar[dict[str, Child]] = {}
     _vectors: ClassVar[dict[str, Quantities]] = {}
+    _sizes: ClassVar[dict[str, str]] = {}  # vectors with a structural size, and what gives it
+    _lengths: ClassVar[tuple[int, ...]] = ()
+    _generic: ClassVar[type[Instance] | None] = None
+    _made: ClassVar[dict[tuple[int, ...], type[Any]]] = {}
     _partial: ClassVar[bool] = True
     _source: ClassVar[tuple[str, int]] = ("", 0)
 
 
 def record(cls: type[R], mods: Mapping[str, Any], path: tuple[Any, ...] = ()) -> R:
     """An instance with modifications that have been checked before."""
-    new = object.__new__(cls)
+    new = object.__new__(sized(cls, mods))
     new.__dict__["_mods"] = mods
     new.__dict__["_path"] = path
     return new

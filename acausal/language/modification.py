@@ -70,11 +70,18 @@ def _modify_one(given: C, effective: Component, parts: list[str], value: Any, pa
     below = given.__dict__["_mods"].get(head)
     if isinstance(child, Array):
         element = below._element if isinstance(below, Array) else below if isinstance(below, Component) else None
-        changed = _modify_one(element or record(type(child._element), {}), child._element, parts[1:], value, path)
+        changed = _modify_one(element or _unmodified(child._element), child._element, parts[1:], value, path)
         if isinstance(below, Array):
             return with_modifications(given, {head: Array(changed, below._count, **below._values)})
         return with_modifications(given, {head: changed})
     if not isinstance(child, Component):
         raise DeclarationError(f"`{path}`: `{head}` is a list of components: give a new list {call_site()}")
-    changed = _modify_one(below or record(type(child), {}), child, parts[1:], value, path)
+    changed = _modify_one(below or _unmodified(child), child, parts[1:], value, path)
     return with_modifications(given, {head: changed})
+
+
+def _unmodified(component: Component) -> Component:
+    """A component of the same class and structure without other modifications."""
+    cls = type(component)
+    mods = component.__dict__["_mods"]
+    return record(cls, {k: v for k, v in mods.items() if k in cls._structural} if cls._sizes else {})

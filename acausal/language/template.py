@@ -232,6 +232,8 @@ class Template:
 def _whole(template: Template, name: str, offset: Ints, par_offset: Ints, outer: str | None, inside: bool) -> Reference:
     """All elements of a vector or matrix, as a slice."""
     names = template.cls._vectors[name].names()
+    if not names:
+        raise DeclarationError(f"`{template.cls.__name__}.{name}` has no elements")
     is_par = template.own[names[0]][0]
     own = np.array([template.own[n][1] for n in names], np.int64)
     declaration = template.cls._declarations[names[0]]

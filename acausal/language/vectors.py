@@ -72,7 +72,7 @@ class Quantities:
         return [f"{self.name}[{label}]" for label in self.labels()]
 
     def __set_name__(self, owner: type[Any], name: str) -> None:
-        if self.name or not isinstance(self.elements[0], Declaration):
+        if self.name or not all(isinstance(e, Declaration) for e in self.elements):
             return
         self.name = name
         for declaration, full in zip(self.elements, self.names(), strict=True):
@@ -158,12 +158,31 @@ class Vector(Quantities):
         element: the declaration that is repeated (`Variable`, `Parameter`, `Potential`, `Flow`, ...).
         values: default of a parameter or start values of a variable, one an element; a vector expression of parameters
             makes dependent parameters.
-        size: number of elements.
+        size: number of elements, or the name of the structural parameter or property of the class that is that number;
+            `values` is then another vector of the same size, or None.
     """
 
-    def __init__(self, element: Declaration, values: Vector | Elements | None = None, *, size: int = 3) -> None:
-        self.size = size
-        self._declare(element, values, size)
+    def __init__(self, element: Declaration, values: Vector | Elements | None = None, *, size: int | str = 3) -> None:
+        self.size, self.element, self.values = size, element, values
+        if isinstance(size, int):
+            self._declare(element, values, size)
+            return
+        if values is not None and (not isinstance(values, Vector) or values.size != size):
+            raise DeclarationError(
+                f"Vector(..., {values!r}, size={size!r}): the values of a vector with a structural size are those of "
+                f"another vector of that size; a value for all elements is given to the element"
+            )
+        self._declare(element, None, 0)
+
+    def resized(self, owner: type[Any], length: int) -> Vector:
+        """This field of `owner` with `length` elements; other vectors of the same size have theirs already."""
+        values = self.values
+        if isinstance(values, Vector):
+            values = owner._vectors[values.name]
+        made = Vector(self.element, values, size=length)
+        made.size, made.values = self.size, self.values
+        made.__set_name__(owner, self.name)
+        return made
 
     def labels(self) -> Iterator[str]:
         """``1``, ``2``, ``3``."""
