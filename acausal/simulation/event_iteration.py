@@ -116,11 +116,22 @@ class EventIteration(ModeSearch):
         outcome = self._iterate(t, z, p)
         self.forced = []
         if samples:
-            self._sample(outcome.p, samples, 0.0)
-            point = Point(t, outcome.values, outcome.p)
-            self.before = self._conditions(point)
+            outcome = self._over(t, outcome, samples)
         outcome.changed = [*changed, *(samples or []), *outcome.changed]
         return outcome
+
+    def _over(self, t: float, outcome: Outcome, samples: list[int]) -> Outcome:
+        """The samples are over, at the same time: what is true with them falls back, and is seen to do so."""
+        z, p = outcome.z, outcome.p
+        self._sample(p, samples, 0.0)
+        z = self._settled(t, z, p)
+        values = self.equations.values(t, z, p)
+        if np.array_equal(values, outcome.values, equal_nan=True):  # only triggers depend on them
+            self.before = self._conditions(Point(t, outcome.values, p))
+            return outcome
+        after = self._iterate(t, z, p)
+        after.ended, after.changed = outcome.ended or after.ended, [*outcome.changed, *after.changed]
+        return after
 
     def _sample(self, p: Floats, slots: list[int], value: float) -> None:
         for slot in slots:

@@ -196,6 +196,28 @@ def test_samples(engine: Any) -> None:
     assert [quick[n][-1] for n in ("fast", "slow", "both")] == [22, 9, 9]
 
 
+class Trigger(Clock):
+    """A signal that is true at samples only, the first of them at the start, and what counts its edges."""
+
+    on: Discrete = Discrete(start=0)
+    ups: Discrete = Discrete(start=0)
+    downs: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.on == where(sample(0.0, 0.25), 1, 0)
+        yield when(self.on > 0.5, {self.ups: pre(self.ups) + 1})
+        yield when(~(self.on > 0.5), {self.downs: pre(self.downs) + 1})
+
+
+def test_a_sample_is_over_at_the_same_time(engine: Any) -> None:
+    solution = run(Trigger(), 1.1, engine, n=12)
+    assert not np.any(np.asarray(solution["on"]))
+    wanted = np.floor(np.asarray(solution.t) / 0.25 + 1e-9) + 1
+    assert_allclose(solution["ups"], wanted)
+    assert_allclose(solution["downs"], wanted)
+
+
 def test_sampled_feedback_is_that_of_the_recursion(engine: Any) -> None:
     """x' = u - x with u held between samples: x(k+1) = a x(k) + (1 - a) u(k)."""
 

@@ -337,12 +337,14 @@ static int fmu_event(fmu_instance *f, const int *switched, int sampled, int fina
     for (int k = 0; k < FMU_FLOORS; k++) fmu_put(f, fmu_floor_slot[k], floor(f->events[k]), &changed);
     status = fmu_iterate(f);
     if (status != FMU_OK) return status;
-    if (sampled || final) {
-        if (sampled) {
-            f->s.sampled_until = f->s.t;
-            fmu_put_samples(f, 0.0);
-        }
-        if (final && FMU_TERMINAL >= 0) fmu_put(f, FMU_TERMINAL, 0.0, &changed);
+    if (sampled) { /* they are over at once: what is true with them falls back, and is seen to do so */
+        f->s.sampled_until = f->s.t;
+        fmu_put_samples(f, 0.0);
+        status = fmu_iterate(f);
+        if (status != FMU_OK) return status;
+    }
+    if (final && FMU_TERMINAL >= 0) {
+        fmu_put(f, FMU_TERMINAL, 0.0, &changed);
         fmu_event_values(f);
         fmu_remember(f);
     }
