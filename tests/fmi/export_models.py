@@ -160,19 +160,27 @@ class Thermostat(Component):
 
 
 class Sampled(Component):
-    """A sampled controller: events by the time, also at the start; a signal that is true at them, and is counted."""
+    """A sampled controller: events by the time, also at the start."""
 
     x: Variable = Variable(start=1.0, fixed=True)
     u: Discrete = Discrete(start=0.0)
     k: Parameter = Parameter(2.0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.u - 0.1 * self.x
+        yield when(sample(0.0, 0.25), {self.u: -self.k * self.x})
+
+
+class Ticking(Sampled):
+    """A signal that is true at the samples, and is counted."""
+
     tick: Discrete = Discrete(start=0.0)
     ticks: Discrete = Discrete(start=0.0)
 
     def equations(self) -> Equations:
+        yield from super().equations()
         yield self.tick == ac.where(sample(0.0, 0.25), 1.0, 0.0)
         yield when(self.tick > 0.5, {self.ticks: pre(self.ticks) + 1.0})
-        yield der(self.x) == self.u - 0.1 * self.x
-        yield when(sample(0.0, 0.25), {self.u: -self.k * self.x})
 
 
 class Dosed(Component):

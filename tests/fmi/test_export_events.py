@@ -12,11 +12,12 @@ import pytest
 
 import acausal as ac
 
-from .export_models import Ball, Breaks, Dosed, Ends, Rectifier, Rounded, Sampled, Thermostat, Wall
+from .export_models import Ball, Breaks, Dosed, Ends, Rectifier, Rounded, Sampled, Thermostat, Ticking, Wall
 from .export_unit import DISCARD, ERROR, OK, WARNING, Instance, Unit, exported
 
 BOTH = pytest.mark.parametrize("version", ("2.0", "3.0"))
-RUNS = {Ball: 1.5, Thermostat: 15.0, Sampled: 2.0, Rectifier: 3.0, Wall: 2.0, Rounded: 3.0, Dosed: 2.0}
+RUNS = {Ball: 1.5, Thermostat: 15.0, Sampled: 2.0, Ticking: 2.0, Rectifier: 3.0, Wall: 2.0, Rounded: 3.0,
+        Dosed: 2.0}  # fmt: skip
 
 
 def _cases() -> Iterator[Any]:
