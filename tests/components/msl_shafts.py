@@ -91,3 +91,39 @@ def rolling_wheel() -> Component:
         quadraticSpeedDependentForce=translational.QuadraticSpeedDependentForce(f_nominal=-10.0,
             ForceDirection=False, v_nominal=5.0),
     )  # fmt: skip
+
+
+def heat_losses() -> Component:
+    """Rotational.Examples.HeatLosses."""
+    return assemble(
+        "sine.y - torque.tau", "torque.flange - inertia1.flange_a", "damper.flange_a - fixed.flange",
+        "inertia1.flange_b - damper.flange_b - springDamper.flange_a", "springDamper.flange_b - inertia2.flange_a",
+        "inertia2.flange_b - elastoBacklash.flange_a", "elastoBacklash.flange_b - inertia3.flange_a",
+        "inertia3.flange_b - bearingFriction.flange_a", "bearingFriction.flange_b - spring3.flange_a",
+        "spring3.flange_b - inertia4.flange_a", "inertia4.flange_b - lossyGear.flange_a",
+        "lossyGear.flange_b - clutch.flange_a", "clutch.flange_b - inertia5.flange_a",
+        "inertia5.flange_b - oneWayClutch.flange_a", "oneWayClutch.flange_b - inertia6.flange_a",
+        "inertia6.flange_b - brake.flange_a", "TAmbient.port - convection.fluid", "const.y - convection.Gc",
+        "sine2.y - clutch.f_normalized - oneWayClutch.f_normalized - brake.f_normalized",
+        "convection.solid - damper.heatPort - springDamper.heatPort - elastoBacklash.heatPort - brake.heatPort",
+        "convection.solid - bearingFriction.heatPort - lossyGear.heatPort - clutch.heatPort - oneWayClutch.heatPort",
+        sine=blocks.Sine(f=5.0, amplitude=20.0), torque=rotational.Torque(), inertia1=resting(),
+        damper=rotational.Damper(useHeatPort=True, d=10.0), fixed=rotational.Fixed(), convection=thermal.Convection(),
+        TAmbient=thermal.FixedTemperature(T=298.15), const=blocks.Constant(k=20.0),
+        springDamper=rotational.SpringDamper(c=1e4, d=20.0, useHeatPort=True), inertia2=resting(),
+        elastoBacklash=rotational.ElastoBacklash(c=1e5, d=100.0, useHeatPort=True, b=0.001), inertia3=resting(),
+        bearingFriction=rotational.BearingFriction(useHeatPort=True), spring3=rotational.Spring(c=1e4),
+        inertia4=resting(), inertia5=rotational.Inertia(J=2.0), inertia6=rotational.Inertia(J=2.0),
+        lossyGear=rotational.LossyGear(ratio=2.0, lossTable=((0, 0.8, 0.8, 1, 1), (1, 0.7, 0.7, 2, 2)),
+            useHeatPort=True),
+        clutch=rotational.Clutch(useHeatPort=True, fn_max=10.0, phi_rel=start(0.0, fixed=True),
+            w_rel=start(0.0, fixed=True)),
+        oneWayClutch=rotational.OneWayClutch(phi_rel=start(0.0, fixed=True), w_rel=start(0.0, fixed=True), fn_max=1.0,
+            useHeatPort=True),
+        brake=rotational.Brake(fn_max=2.0, useHeatPort=True), sine2=blocks.Sine(f=0.2, amplitude=1.0),
+    )  # fmt: skip
+
+
+def resting() -> rotational.Inertia:
+    """An inertia of 2 kg m2 that starts from rest."""
+    return rotational.Inertia(J=2.0, phi=start(0.0, fixed=True), w=start(0.0, fixed=True))

@@ -246,7 +246,9 @@ class OneWayClutch(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
         locked = self.locked > 0.5
         yield self.mu == blocks.interpolate(self.speed, speeds, coefficients)
         most = high + rest * self.fn_max / self.unitTorque
-        yield self.a_rel == self.unitAngularAcceleration * where(locked, yielding(sa, most), sa - low)
+        # Sliding, sa is shifted by what was held, not by tau0 as in the standard library: so a clutch that lets go
+        # stays free, whatever inertia it moves. Shifted by less, sa may fall below tau0_max at once.
+        yield self.a_rel == self.unitAngularAcceleration * where(locked, yielding(sa, most), sa - high)
         yield self.tau == where(locked, sa * self.unitTorque, where(free, 0.0, self.mu * self.cgeo * self.fn))
         yield self.stuck == where(locked | (self.w_rel <= 0), 1.0, 0.0)
         yield self.lossPower == where(self.stuck > 0.5, 0.0, self.tau * self.w_rel)
