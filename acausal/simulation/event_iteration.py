@@ -202,6 +202,12 @@ class EventIteration(ModeSearch):
         """Largest values of the conditions at the events so far (n_roots,), where each root is that of a condition."""
         return self.largest[self.hybrid.roots.slots - self.hybrid.first]
 
+    @property
+    def sizes_of_roots(self) -> Floats:
+        """The same for all roots: that of a step of `floor` is 1."""
+        slots = self.hybrid.roots.slots
+        return np.where(slots < 0, 1.0, self.largest[np.maximum(slots - self.hybrid.first, 0)])
+
     def note_largest(self, values: Floats) -> None:
         """Take over values as `largest_of_roots` gives them."""
         self.largest[self.hybrid.roots.slots - self.hybrid.first] = values
@@ -322,8 +328,9 @@ class EventIteration(ModeSearch):
         for piece, ids, signs in left_starts(hybrid):
             p[piece.slots] = signs * problem.start_sign[ids] * np.nan_to_num(starts[problem.start_source[ids]])
         self.schedule(t0, p)
-        _, due = self.next_sample(t0, at=True)
-        due = due if abs(_ - t0) <= 1e-9 * max(1.0, abs(t0)) else []
+        first, due = self.next_sample(t0, at=True)
+        intervals = {slot: interval for _, interval, slot in self.due}
+        due = [slot for slot in due if first - t0 <= 1e-9 * intervals[slot]]
         tried: dict[bytes, None] = {}
         changed: list[int] = []
         for _turn in range(TURNS):

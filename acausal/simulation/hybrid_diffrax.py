@@ -19,7 +19,6 @@ import numpy as np
 import optimistix as optx
 
 from acausal.errors import InitializationError, SimulationError
-from acausal.lowering.hybrid import Hybrid
 from acausal.lowering.initial_numeric import gauss_newton_part, solve_numeric
 from acausal.lowering.numeric import NumericRun, is_concrete
 
@@ -47,8 +46,9 @@ from .traced import Way, simulate_traced
 from .watch import watch
 
 SLACK = 1e-12
-TIME = 1e-14
-"""Relative and absolute width of the interval in which an event is located."""
+"""What happens at the same time as an event is this close to its switch, relative to the condition's largest value."""
+TIME, NEAR_ZERO = 1e-14, 1e-30
+"""Width of the interval in which an event is located, relative to the time, and near t = 0 [s]."""
 TINY = 1e-200
 """Slack of what is at its switch exactly: just not zero."""
 SAME = 1e-13
@@ -63,6 +63,18 @@ OUTSIDE = (
     "cannot run. The native engine can (engine='native'; it needs a C compiler); and events=False switches events off "
     "where the model has conditions only."
 )
+
+
+class _JustBehind(optx.Bisection[Any]):
+    """Bisection from positive to negative that returns the end of the last interval at which the value is negative.
+
+    In its middle, no condition need have switched.
+    """
+
+    def postprocess(
+        self, fn: Any, y: Any, aux: Any, args: Any, options: Any, state: Any, tags: Any, result: Any
+    ) -> tuple[Any, Any, dict[str, Any]]:
+        return state.upper, aux, {}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -203,7 +215,7 @@ class _Stretches:
         slack, shortest = _slack(self.iteration, equations, t, z, p), jnp.asarray(NARROWEST * (stop - t))
         together = isinstance(self.model.method, Rodas5P)
         switch = Switch(jnp.asarray(slack), shortest, self.lowered, hybrid.roots, together, n_x)
-        finder = optx.Bisection(rtol=TIME, atol=TIME, flip=True)  # what switches by rounding is at an end of the step
+        finder = _JustBehind(rtol=TIME, atol=NEAR_ZERO, flip=True)  # what switches by rounding is at an end of the step
         event = diffrax.Event(switch, finder) if hybrid.roots.count else None
         outcome, seconds, _ = plain.carry_out(
             self.lowered, self._settings(event), self._arguments(t, stop, z, p, remaining)
@@ -221,7 +233,7 @@ class _Stretches:
         if sum(named.values()) and steps < named["steps"]:
             name = "max_steps_reached"
         result = EVENT if happened else RESULTS.index(name) if name in RESULTS else 1
-        roots = _switched(hybrid, equations, t_end, z_end, p, slack) if happened else None
+        roots = _switched(self.iteration, equations, t_end, z_end, p, slack) if happened else None
         return Stretch(found, result, n, t_end, z_end, 0.0, roots, named)
 
     def static(self) -> Integrate:
@@ -238,7 +250,7 @@ class _Stretches:
             w, beyond = compiled(*arguments)
             return np.asarray(w), np.asarray(beyond)
 
-        return static_integrate(hybrid, look)
+        return static_integrate(self.iteration, look)
 
     def differentiated(self) -> Differentiated:
         """Stretches with their derivatives."""
@@ -388,15 +400,17 @@ def _slack(iteration: EventIteration, equations: Equations, t: float, z: Floats,
     return np.where(side <= iteration.noise, 10.0 * np.abs(side) + iteration.noise + TINY, 0.0)
 
 
-def _switched(hybrid: Hybrid, equations: Equations, t: float, z: Floats, p: Floats, slack: Floats) -> Any:
-    """The conditions that switch at a root: the nearest to its switch, and what is already behind.
+def _switched(iteration: EventIteration, equations: Equations, t: float, z: Floats, p: Floats, slack: Floats) -> Any:
+    """The conditions that switch at a root: what is behind its switch, and what is there but for rounding.
 
-    What has rested at its switch since the start of the stretch (it has `slack`) is no nearer to it than it was: it
-    switches where it has left its slack behind.
+    If rounding has put none behind, it is the one that is nearest for its size. What has rested at its switch since
+    the start of the stretch (it has `slack`) is no nearer to it than it was: it switches where it has left its slack
+    behind.
     """
     settled = equations.settle(t, z, p)
-    distance = slack - sides(hybrid, equations, t, z if settled is None else settled, p)
+    distance = slack - sides(iteration.hybrid, equations, t, z if settled is None else settled, p)
     behind, moving = distance <= 0.0, slack == 0.0
-    if not behind.any() and moving.any():
-        return moving & (distance <= distance[moving].min() + SLACK)
-    return behind | (moving & (distance <= SLACK)) if behind.any() else distance <= distance.min() + SLACK
+    size = np.maximum(iteration.sizes_of_roots, np.abs(distance)) + TINY
+    nearest = behind if behind.any() else moving if moving.any() else np.ones_like(moving)
+    least = (distance / size)[nearest].min()
+    return behind | ((moving | nearest) & (distance / size <= max(least, 0.0) + SLACK))

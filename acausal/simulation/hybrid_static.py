@@ -14,9 +14,13 @@ from acausal.errors import SimulationError
 from acausal.lowering.hybrid import Hybrid
 
 from .conditions import modes
+from .event_iteration import EventIteration
 from .hybrid_run import EVENT, Integrate
 from .native_library import Floats
 from .scan import Scan
+
+TINY = 1e-300
+"""Slack of what is at its switch exactly: just not zero."""
 
 Look = Callable[[float, float, Floats, Floats], tuple[Floats, Floats]]
 """(time, later time, solution at the first, parameters) to the solution at the second, and how far each condition is
@@ -74,14 +78,15 @@ class _Path:
         del self.times[:k], self.known[:k]
 
 
-def static_integrate(hybrid: Hybrid, look: Look) -> Integrate:
+def static_integrate(iteration: EventIteration, look: Look) -> Integrate:
     """Stretches of a model without states."""
+    hybrid = iteration.hybrid
 
     def integrate(
         t: float, stop: float, z: Floats, p: Floats, save: Floats, step: float, end_open: bool, steps: int
     ) -> Stretch:
         path = _Path(look, p, [t], [(z, look(t, t, z, p)[1])])
-        scan = _conditions(hybrid, path)
+        scan = _conditions(hybrid, iteration.noise, path)
         kept = [np.tile(z, (int((save <= t).sum()) if not (end_open and stop <= t) else 0, 1))]
         n, here = len(kept[0]), t
         while here < stop:
@@ -108,8 +113,8 @@ def static_integrate(hybrid: Hybrid, look: Look) -> Integrate:
     return integrate
 
 
-def _conditions(hybrid: Hybrid, path: _Path) -> Scan:
+def _conditions(hybrid: Hybrid, noise: Floats, path: _Path) -> Scan:
     """Conditions along a path; those at their switch at its start but for rounding have some slack."""
     at_zero, first = modes(hybrid, path.p) == hybrid.roots.strict, path.known[0][1]
-    slack = np.where((first > 0.0) | (at_zero & (first == 0.0)), 10.0 * np.abs(first) + 1e-12, 0.0)
+    slack = np.where((first > 0.0) | (at_zero & (first == 0.0)), 10.0 * (np.abs(first) + noise) + TINY, 0.0)
     return Scan(lambda t: path.at(t)[1] - slack, at_zero & (slack == 0.0))

@@ -18,7 +18,7 @@ from .inputs import DrivenLowered
 from .projection import Wrapped
 from .scan import CUBIC, FURTHER, LOOKS, NODES, ROUNDING, TRUST
 
-SMALL = 1e-30
+SMALL = 1e-90
 """The root finder asks for a small function as well as for a short interval: the interval alone is to count."""
 _PLACES = np.sort([*LOOKS, *FURTHER])
 _NODES = np.searchsorted(_PLACES, LOOKS[NODES])
