@@ -27,7 +27,7 @@ from .passes.schedule import make_schedule
 from .passes.specialize import specialize
 from .passes.states import select_states
 from .passes.structure import check_structure
-from .passes.vanishing import explained, vanishing_zeros, with_zeros
+from .passes.vanishing import vanishing_zeros, with_zeros, zeros_hint
 from .system import Stages, System
 from .units import check_units
 
@@ -99,16 +99,23 @@ def finish(written: FlatModel, clock: Clock, counts: dict[str, int], *, located:
         counts: of variables and equations, for the report.
         located: whether conditions in equations are modes that change at events, or what they are at every moment.
     """
+    zeros = np.zeros(0, np.int64)
     try:
-        return _passes(written, clock, counts, located=located)
+        while True:
+            made = _passes(written, clock, counts, located=located)
+            if isinstance(made, System):
+                return made
+            zeros = np.concatenate([zeros, made])
+            written = clock("evaluate", lambda made=made, written=written: with_zeros(written, made))
     except StructureError as error:
         raise StructureError(
-            f"{error}{written.loop_hint()}", equations=error.equations, unknowns=error.unknowns,
-            components=error.components,
+            f"{error}{zeros_hint(written, zeros)}{written.loop_hint()}", equations=error.equations,
+            unknowns=error.unknowns, components=error.components,
         ) from error  # fmt: skip
 
 
-def _passes(written: FlatModel, clock: Clock, counts: dict[str, int], *, located: bool) -> System:
+def _passes(written: FlatModel, clock: Clock, counts: dict[str, int], *, located: bool) -> System | Ints:
+    """The compiled system, or the parameters that have to be built in first (`vanishing_zeros`)."""
     flat = clock("events", lambda: extract_events(written, located=located))
     program = clock("parameters", lambda: ParameterProgram(flat))
     reduced = clock("aliases", lambda: eliminate_aliases(flat))
@@ -116,7 +123,7 @@ def _passes(written: FlatModel, clock: Clock, counts: dict[str, int], *, located
     low_index = clock("index reduction", lambda: regularize(reduced, program.generic))
     zeros = clock("zeros", lambda: vanishing_zeros(low_index, program))
     if len(zeros):
-        return _without(zeros, written, clock, counts, located=located)
+        return zeros
     low_index.settle(flat)
     selected = clock("states", lambda: select_states(low_index, program.default))
     schedule = clock("sort and tear", lambda: make_schedule(selected, program.default))
@@ -130,14 +137,6 @@ def _passes(written: FlatModel, clock: Clock, counts: dict[str, int], *, located
     problem = initial_problem(reduced, lowered, initial, with_start)
     stages = Stages(flat, reduced, low_index, schedule, counts, clock.seconds)
     return System(stages, program, lowered, problem, written, make_hybrid(flat, *extended))
-
-
-def _without(zeros: Ints, written: FlatModel, clock: Clock, counts: dict[str, int], *, located: bool) -> System:
-    """All passes once more with what these parameters, which are zero, take out of the equations left out."""
-    try:
-        return _passes(clock("evaluate", lambda: with_zeros(written, zeros)), clock, counts, located=located)
-    except StructureError as error:
-        raise explained(error, written, zeros) from error
 
 
 def located_twin(system: System) -> System:

@@ -11,6 +11,7 @@ import numpy as np
 from .language.flat_model import FlatModel
 from .lowering.initial import ACCEPTED
 from .passes.places import declared
+from .passes.schedule import Schedule
 
 if TYPE_CHECKING:
     from .system import System
@@ -121,9 +122,7 @@ def explain_initial(
     starts = np.asarray(system.program.starts(p, np))
     entries: list[tuple[float, str]] = []
     texts: list[str] = []
-    if low.n_w:
-        texts += [_determining(system, int(v)) for v in system.stages.schedule.tears]
-    texts += [flat.equation_line(f, k) for f in system.stages.schedule.invariants for k in range(f.size)]
+    texts += conditions_in_words(system.stages.schedule)
     texts += [_fixed(flat, int(v), starts, values) for v in problem.targets]
     extra = [flat.equation_line(f, k) for f in problem.families for k in range(f.size)]
     while len(texts) + len(extra) < len(left):
@@ -160,11 +159,18 @@ def _owner(name: str) -> str:
     return name.rpartition(".")[0] or name
 
 
-def _determining(system: System, v: int) -> str:
+def conditions_in_words(schedule: Schedule) -> list[str]:
+    """What each residual of the algebraic unknowns says, and then each invariant, with sources."""
+    flat = schedule.reduced.flat
+    texts = [_determining(schedule, int(v)) for v in schedule.tears]
+    return texts + [flat.equation_line(f, k) for f in schedule.invariants for k in range(f.size)]
+
+
+def _determining(schedule: Schedule, v: int) -> str:
     """The equations of the block that an algebraic unknown is solved from, as far as they hold it."""
-    flat = system.stages.flat
+    flat = schedule.reduced.flat
     found: list[str] = []
-    for family in system.stages.index.families:
+    for family in schedule.reduced.families:
         for row in np.flatnonzero((family.var_rows == v).any(axis=1))[:2]:
             found.append(flat.equation_line(family, int(row)))
     lines = "".join(f"\n                   {text}" for text in found[:3])

@@ -26,6 +26,8 @@ from ..symbolic.isolate import Isolated, Solvability, isolate
 from ..symbolic.traverse import evaluate
 from .structure import IndexReduced
 
+SINGULAR = 1e10
+"""Condition number from which a matrix of constants is singular."""
 DEFAULT, PREFER = STATE_SELECT.index("default"), STATE_SELECT.index("prefer")
 
 
@@ -90,10 +92,16 @@ def _solve_lower(reduced: IndexReduced, lower: Ints, candidate: Bools, parameter
     elsewhere = ~own & safe & wanted
     allowed = own & (safe | forced[owner]) | elsewhere
     order = np.lexsort(_dislike(reduced, ids, select))
-    column = np.asarray(transversal_basis(graph, order, allowed))
-    column = _avoid_iteration(graph, column, kinds, allowed, order)
-    moved = np.zeros(len(lower), bool)
-    moved[owner[(graph.indices == column[owner]) & ~own]] = True
+    while True:
+        column = np.asarray(transversal_basis(graph, order, allowed))
+        column = _avoid_iteration(graph, column, kinds, allowed, order)
+        taken = (graph.indices == column[owner]) & ~own
+        moved = np.zeros(len(lower), bool)
+        moved[owner[taken]] = True
+        spoilt = _spoilt(reduced, lower, ids, graph, column, moved, forced, parameters)
+        if not spoilt.any():
+            break
+        allowed &= ~(taken & spoilt[owner])
     matched = np.flatnonzero((column >= 0) & (~forced | moved))
     unsafe = _unsafe_blocks(reduced, lower[matched], ids, graph, matched, column, parameters)
     column[matched[unsafe]] = -1
@@ -239,24 +247,49 @@ def _unsafe_blocks(
     reduced: IndexReduced, rows: Ints, ids: Ints, graph: Incidence, matched: Ints, column: Ints, parameters: np.ndarray
 ) -> Bools:
     """Among the matched rows, those whose simultaneous system is not a constant non-singular matrix."""
+    unsafe = np.zeros(len(matched), bool)
+    for members in _simultaneous(graph, matched, column, len(ids)):
+        matrix = _constant_matrix(reduced, rows[members], ids[column[matched[members]]], parameters)
+        if matrix is None or np.linalg.cond(matrix) > SINGULAR:
+            unsafe[members] = True
+    return unsafe
+
+
+def _spoilt(
+    reduced: IndexReduced, lower: Ints, ids: Ints, graph: Incidence, column: Ints, moved: Bools, forced: Bools,
+    parameters: np.ndarray,
+) -> Bools:  # fmt: skip
+    """Rows that determine a variable of another block, and with rows that leave no choice say the same of it.
+
+    Two springs side by side with nothing that moves between them: both relative positions are wanted as states, and the
+    places of their two ends would follow from either.
+    """
+    spoilt = np.zeros(len(lower), bool)
+    mixed = moved.any() and (forced & ~moved).any()
+    matched = np.flatnonzero(column >= 0) if mixed else np.zeros(0, np.int64)
+    for members in _simultaneous(graph, matched, column, len(ids)):
+        rows = matched[members]
+        if not moved[rows].any() or not (forced & ~moved)[rows].any():
+            continue
+        matrix = _constant_matrix(reduced, lower[rows], ids[column[rows]], parameters)
+        if matrix is not None and np.linalg.cond(matrix) > SINGULAR:
+            spoilt[rows] = moved[rows]
+    return spoilt
+
+
+def _simultaneous(graph: Incidence, matched: Ints, column: Ints, n_columns: int) -> list[Ints]:
+    """Positions in `matched` of the rows of each block of more than one."""
     if not len(matched):
-        return np.zeros(0, bool)
-    new = np.full(len(ids), -1, np.int64)
+        return []
+    new = np.full(n_columns, -1, np.int64)
     new[column[matched]] = np.arange(len(matched))
-    owner = np.repeat(np.arange(graph.n_rows), np.diff(graph.indptr))
+    owner = graph.edge_rows()
     position = np.full(graph.n_rows, -1, np.int64)
     position[matched] = np.arange(len(matched))
     keep = (position[owner] >= 0) & (new[graph.indices] >= 0)
     square = Incidence.from_coo(position[owner[keep]], new[graph.indices[keep]], len(matched), len(matched))
     blocks = block_lower_triangular(square, np.arange(len(matched)))
-    size = np.diff(blocks.ptr)
-    unsafe = np.zeros(len(matched), bool)
-    for b in np.flatnonzero(size > 1):
-        members = blocks.rows[blocks.ptr[b] : blocks.ptr[b + 1]]
-        matrix = _constant_matrix(reduced, rows[members], ids[column[matched[members]]], parameters)
-        if matrix is None or np.linalg.cond(matrix) > 1e10:
-            unsafe[members] = True
-    return unsafe
+    return [blocks.rows[blocks.ptr[b] : blocks.ptr[b + 1]] for b in np.flatnonzero(np.diff(blocks.ptr) > 1)]
 
 
 def _constant_matrix(reduced: IndexReduced, rows: Ints, ids: Ints, parameters: np.ndarray) -> np.ndarray | None:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..errors import StructureError
 from ..language.flat_model import Bools, Family, FlatModel
 from ..language.template import Ints
 from ..lowering.parameters import ParameterProgram
@@ -47,17 +46,19 @@ def with_zeros(written: FlatModel, zeros: Ints) -> FlatModel:
     return _without_unheld(evaluate_parameters(written.changed(evaluated=evaluated)))
 
 
-def explained(error: StructureError, flat: FlatModel, zeros: Ints) -> StructureError:
-    """The error of a model whose zeros are built in, with what they are."""
+def zeros_hint(flat: FlatModel, zeros: Ints) -> str:
+    """What to say of zeros that are built in where the model cannot be solved; empty without such."""
+    if not len(zeros):
+        return ""
     shown = ", ".join(f"`{flat.parameter_name(int(i))}`" for i in zeros[:SHOWN])
     more = f" and {len(zeros) - SHOWN} more" if len(zeros) > SHOWN else ""
     one = len(zeros) == 1
-    return StructureError(
-        f"{error}\nThe value{'' if one else 's'} 0 of {shown}{more} {'takes' if one else 'take'} unknowns out of their "
-        f"equations, and what remains is this. Give {'it' if one else 'them'} a value that is not zero, or leave the "
-        "component out.",
-        equations=error.equations, unknowns=error.unknowns, components=error.components,
-    )  # fmt: skip
+    several = "values 0", "take", "them other values"
+    subject, verb, value = ("value 0", "takes", "it another value") if one else several
+    return (
+        f"\nThe {subject} of {shown}{more} {verb} unknowns out of their equations, and what remains is this. Give "
+        f"{value}, or leave the component out."
+    )
 
 
 def _holding(index: IndexReduced, blocks: Blocks, zero: Bools) -> Bools:

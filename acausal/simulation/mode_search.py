@@ -14,8 +14,9 @@ import numpy as np
 
 from acausal.errors import SimulationError
 from acausal.lowering.hybrid import Hybrid, Piece, Point
-from acausal.lowering.initial import EASE_ALGEBRAIC, InitialProblem
+from acausal.lowering.initial import ACCEPTED, EASE_ALGEBRAIC, InitialProblem
 from acausal.lowering.initial_numeric import conditions_of, gauss_newton_part
+from acausal.report import conditions_in_words
 
 from .native_library import Floats
 
@@ -24,6 +25,8 @@ TURNS = 200
 NOISE = 1e-9
 """A condition that switches back and forth and is no further from its switch than this, relative to the quantities in
 it, is there by rounding."""
+SHOWN = 8
+"""Conditions that a message names."""
 MOST_SEARCHED = 10
 """Conditions of which all combinations are tried."""
 
@@ -238,16 +241,24 @@ class ModeSearch:
         nominal = np.concatenate([low.x_nominal, low.w_nominal])
         ease = np.concatenate([low.x_nominal, EASE_ALGEBRAIC * low.w_nominal])
         found, left = gauss_newton_part(made[0], z, nominal, ease, columns)
-        if not np.isfinite(left).all() or np.max(left, initial=0.0) > 1e-6:
+        if not np.isfinite(left).all() or np.max(left, initial=0.0) > ACCEPTED:
             raise SimulationError(
                 f"At t = {t:.12g} s the equations have no solution near the values before the event.\n"
-                + self._names(self._active(p))
+                + "\n".join(filter(None, (self._unmet(left, ids), self._names(self._active(p)))))
             )
         return found
 
+    def _unmet(self, left: Floats, ids: Any) -> str:
+        """The conditions that are furthest from being met, one below the other."""
+        texts = conditions_in_words(self.problem.lowered.schedule)
+        texts += [f"the new value of `{self.hybrid.flat.name(int(v))}`" for v in ids]
+        distance = np.where(np.isfinite(left), left, np.inf)
+        worst = [k for k in np.argsort(-distance)[:SHOWN].tolist() if distance[k] > ACCEPTED]
+        return "Not met:\n" + "\n".join(f"    {texts[k]}" for k in worst)
+
     def _names(self, slots: list[int]) -> str:
         wanted = [s for s in dict.fromkeys(slots) if s not in (self.hybrid.flat.slots.initial,)]
-        return "\n".join(f"    {self.hybrid.text(s)}" for s in wanted[:8])
+        return "\n".join(f"    {self.hybrid.text(s)}" for s in wanted[:SHOWN])
 
 
 def _among(slots: Any, some: list[int]) -> Any:

@@ -210,3 +210,22 @@ def test_a_misspelt_option_is_refused(tmp_path: Path) -> None:
     for engine in ("auto", "diffrax"):
         text = f"ac.compile(RC()).simulate(1.0, engine={engine!r}, parametres={{}})\n"
         error_of(tmp_path, text, TypeError, ["unexpected keyword argument 'parametres'"])
+
+
+def test_no_solution_behind_an_event(tmp_path: Path) -> None:
+    text = """
+    class M(Component):
+        c: Variable = Variable(start=1.0)
+        y: Variable = Variable(start=1.0)
+        x: Variable = Variable(start=0.0, fixed=True)
+
+        def equations(self):
+            yield der(self.x) == self.y
+            yield self.y**2 + self.y / 10 == where(ac.time < 0.5, 1, -self.x)  # HERE
+            yield self.c == self.y
+
+
+    ac.compile(M()).simulate(1.0, engine="native")
+    """
+    words = ["At t = 0.5 s the equations have no solution", "Not met:", "der(x)**2", "where(time < 0.5, 1, -x)"]
+    error_of(tmp_path, dedent(text), ac.SimulationError, words)

@@ -132,4 +132,18 @@ def test_a_model_that_a_zero_makes_singular() -> None:
     assert "structurally singular" in text
     assert "drive.tau_constant = 0" in text
     assert "The value 0 of `rotor.J` takes unknowns out of their equations" in text
-    assert "Give it a value that is not zero" in text
+    assert "Give it another value, or leave the component out" in text
+
+
+def test_two_springs_at_one_massless_body() -> None:
+    """Both relative positions are wanted as states, but nothing moves between the two: they hold the force together."""
+    model = assemble(
+        "load.flange_b - slide.flange_a - a.flange_a - b.flange_b", "a.flange_b - body.flange_a - b.flange_a",
+        "body.flange_b - push.flange", load=tra.Mass(m=2.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True)),
+        slide=tra.SupportFriction(f_pos=[[0.0, 1.0]]), a=tra.SpringDamper(c=2.0, d=0.0),
+        b=tra.SpringDamper(c=3.0, d=0.0), body=tra.Mass(m=0.0), push=tra.ConstantForce(f_constant=4.0),
+    )  # fmt: skip
+    run = ac.compile(model).simulate(2.0, rtol=1e-9)
+    assert np.allclose(run["load.s"], 0.75 * np.asarray(run.t) ** 2, atol=1e-7)
+    assert np.allclose(run["a.s_rel"], 0.8, atol=1e-9)
+    assert np.allclose(run["b.s_rel"], -0.8, atol=1e-9)
