@@ -83,6 +83,10 @@ def ensemble(
 
     table = _table(parameters, initial)
     kept = tuple(names) if names is not None else system.outputs or system.states
+    if not kept:
+        raise SimulationError(
+            f"`{system.name}` has neither states nor outputs: say which variables are to be kept, `names=[...]`"
+        )
     for name in kept:
         if np.size(system.index_of(name)) != 1:
             raise SimulationError(f"`{name}` is an array; name the elements that an ensemble is to keep")

@@ -12,6 +12,8 @@ import pytest
 from scipy import stats
 
 import acausal as ac
+from acausal.components import electrical
+from acausal.components.examples import assemble
 from acausal.errors import SimulationError, UnknownNameError
 from tests.analysis.parts import Explosive, Oscillator, Tank
 
@@ -199,3 +201,15 @@ def test_wrong_samples_are_named():
 def test_oscillator_keeps_states_by_default():
     found = ac.compile(Oscillator()).ensemble({"c": [4.0]}, 0.1, saveat=2)
     assert found.names == ("s", "v")
+
+
+def test_a_model_without_states_says_what_to_keep():
+    model = assemble(
+        "source.p - load.p", "source.n - load.n - ground.p", source=electrical.ConstantVoltage(V=2.0),
+        load=electrical.Resistor(R=1.0), ground=electrical.Ground(),
+    )  # fmt: skip
+    system = ac.compile(model)
+    with pytest.raises(SimulationError, match=r"neither states nor outputs: .* `names=\[...\]`"):
+        system.ensemble({"load.R": [1.0, 2.0]}, 1.0, progress=False)
+    kept = system.ensemble({"load.R": [1.0, 2.0]}, 1.0, names=["load.i"], progress=False)
+    assert np.allclose(kept["load.i"][:, -1], [2.0, 1.0])
