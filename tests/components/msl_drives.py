@@ -156,7 +156,7 @@ def controlled_temperature() -> Component:
         ground=electrical.Ground(), constantVoltage=electrical.ConstantVoltage(V=10.0),
         heatCapacitor=thermal.HeatCapacitor(C=1.0, T=start(293.15, fixed=True)),
         resistor=electrical.Resistor(R=10.0, T_ref=293.15, alpha=1 / 255, useHeatPort=True),
-        fixedTemperature=thermal.FixedTemperature(T=293.15), temperatureSensor=thermal.CelsiusTemperatureSensor(),
+        fixedTemperature=thermal.FixedTemperature(T=293.15), temperatureSensor=thermal.celsius.TemperatureSensor(),
         thermalConductor=thermal.ThermalConductor(G=0.1), idealSwitch=electrical.IdealOpeningSwitch(),
         ramp=blocks.Ramp(height=25.0, duration=6.0, offset=25.0, startTime=2.0),
         onOffController=blocks.OnOffController(bandwidth=2.0), logicalNot=blocks.Not(),

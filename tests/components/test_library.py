@@ -24,18 +24,18 @@ from acausal.components import (
 from .examples import EXAMPLES, simulated
 
 MODULES = (blocks, bondgraph, electrical, hydraulic, multibody, multibody.constraints, planar,
-           rotational, thermal, translational)  # fmt: skip
+           rotational, thermal, thermal.celsius, translational)  # fmt: skip
 
 
 def public_classes() -> list[type[Component]]:
     """The component and connector classes that the library's modules define for users."""
-    found: list[type[Component]] = []
+    found: dict[type[Component], None] = {}  # once each: an older name of one is in its package beside it
     for module in MODULES:
         for name, value in vars(module).items():
             own = inspect.isclass(value) and value.__module__.startswith(module.__name__)
             if own and issubclass(value, Component) and not name.startswith("_"):
-                found.append(value)
-    return found
+                found[value] = None
+    return list(found)
 
 
 CLASSES = public_classes()
