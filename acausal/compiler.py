@@ -28,6 +28,7 @@ from .passes.specialize import specialize
 from .passes.states import select_states
 from .passes.structure import check_structure
 from .passes.vanishing import vanishing_zeros, with_zeros, zeros_hint
+from .passes.wishes import wished_states, with_derivatives
 from .system import Stages, System
 from .units import check_units
 
@@ -114,8 +115,13 @@ def finish(written: FlatModel, clock: Clock, counts: dict[str, int], *, located:
         ) from error  # fmt: skip
 
 
-def _passes(written: FlatModel, clock: Clock, counts: dict[str, int], *, located: bool) -> System | Ints:
-    """The compiled system, or the parameters that have to be built in first (`vanishing_zeros`)."""
+def _passes(
+    written: FlatModel, clock: Clock, counts: dict[str, int], *, located: bool, index: int | None = None
+) -> System | Ints:
+    """The compiled system, or the parameters that have to be built in first (`vanishing_zeros`).
+
+    `index` is the structural index where the model has been given derivatives that it need not have.
+    """
     flat = clock("events", lambda: extract_events(written, located=located))
     program = clock("parameters", lambda: ParameterProgram(flat))
     reduced = clock("aliases", lambda: eliminate_aliases(flat))
@@ -124,6 +130,12 @@ def _passes(written: FlatModel, clock: Clock, counts: dict[str, int], *, located
     zeros = clock("zeros", lambda: vanishing_zeros(low_index, program))
     if len(zeros):
         return zeros
+    wished = clock("states", lambda: wished_states(reduced, low_index))
+    if len(wished):
+        again = clock("states", lambda: with_derivatives(written, wished))
+        return _passes(again, clock, counts, located=located, index=low_index.index)
+    if index is not None:
+        low_index.index = index
     low_index.settle(flat)
     selected = clock("states", lambda: select_states(low_index, program.default))
     schedule = clock("sort and tear", lambda: make_schedule(selected, program.default))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from acausal import Component
-from acausal.components import blocks, rotational, translational
+from acausal.components import blocks, rotational, thermal, translational
 from acausal.components.examples import assemble, start
 
 ROAD = (
@@ -145,4 +145,33 @@ def why_arrows() -> Component:
         mass1=translational.Mass(L=2.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True), m=1.0),
         fixed2=translational.Fixed(s0=-1.9), spring2=translational.Spring(s_rel0=2.0, c=11.0),
         inertia2=translational.Mass(L=2.0, m=1.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True)),
+    )  # fmt: skip
+
+
+def heat_losses() -> Component:
+    """Translational.Examples.HeatLosses."""
+    return assemble(
+        "mass1.flange_b - springDamper.flange_a", "sine1.y - force.f", "damper.flange_b - fixed1.flange",
+        "force.flange - mass1.flange_a - damper.flange_a - elastoGap.flange_b", "elastoGap.flange_a - fixed2.flange",
+        "springDamper.flange_b - mass2.flange_a", "mass2.flange_b - supportFriction.flange_a",
+        "supportFriction.flange_b - spring.flange_a", "spring.flange_b - mass3.flange_a",
+        "mass3.flange_b - brake.flange_a", "sine2.y - brake.f_normalized", "brake.flange_b - springDamper1.flange_a",
+        "springDamper1.flange_b - massWithStopAndFriction.flange_a", "const.y - convection.Gc",
+        "convection.solid - elastoGap.heatPort - damper.heatPort - springDamper.heatPort - supportFriction.heatPort",
+        "convection.solid - brake.heatPort - massWithStopAndFriction.heatPort - springDamper1.heatPort",
+        "TAmbient.port - convection.fluid",
+        mass1=translational.Mass(m=1.0, L=0.1, s=start(0.0, fixed=True), v=start(0.0, fixed=True)),
+        springDamper=translational.SpringDamper(c=100.0, d=10.0, s_rel=start(0.0, fixed=True), v_rel=start(0.0,
+            fixed=True), useHeatPort=True),
+        damper=translational.Damper(d=10.0, useHeatPort=True), fixed1=translational.Fixed(),
+        elastoGap=translational.ElastoGap(c=100.0, d=20.0, s_rel0=-0.02, useHeatPort=True),
+        fixed2=translational.Fixed(), force=translational.Force(), sine1=blocks.Sine(f=1.0, amplitude=20.0),
+        mass2=translational.Mass(m=1.0, L=0.1), supportFriction=translational.SupportFriction(useHeatPort=True),
+        spring=translational.Spring(c=100.0, s_rel=start(0.0, fixed=True)),
+        mass3=translational.Mass(m=1.0, L=0.1, v=start(0.0, fixed=True)),
+        brake=translational.Brake(fn_max=10.0, useHeatPort=True), sine2=blocks.Sine(amplitude=10.0, f=2.0),
+        massWithStopAndFriction=translational.MassWithStopAndFriction(L=0.1, m=1.0, F_prop=0.5, F_Coulomb=1.0,
+            F_Stribeck=2.0, fexp=2.0, smin=0.0, smax=0.4, v=start(0.0, fixed=True), useHeatPort=True),
+        springDamper1=translational.SpringDamper(c=1e4, d=1e3, s_rel=start(0.0, fixed=True), useHeatPort=True),
+        convection=thermal.Convection(), const=blocks.Constant(k=20.0), TAmbient=thermal.FixedTemperature(T=298.15),
     )  # fmt: skip

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Component
+from acausal import Component, Equations, Input, connect
 from acausal.components import blocks, rotational, translational
 from acausal.components.examples import assemble, start
 
@@ -30,11 +30,46 @@ def test_states_are_as_wished(wish: str, wanted: bool) -> None:
         c=8.0, d=0.0, stateSelect=wish, s_rel=start(1.0, fixed=True), v_rel=start(0.0, fixed=True)
     )
     system = ac.compile(pair(shaft))
-    assert ("shaft.s_rel" in system.states) == wanted
+    assert {"shaft.s_rel", "shaft.v_rel"} <= set(system.states) if wanted else "shaft.s_rel" not in system.states
+    assert system.report().structural_index == 2  # v_rel is algebraic, whatever is done with it
     t = np.linspace(0.0, 3.0, 31)
     solution = system.simulate(3.0, saveat=t, rtol=1e-9)
     np.testing.assert_allclose(solution["shaft.s_rel"], np.cos(np.sqrt(8.0) * t), atol=1e-7)
     np.testing.assert_allclose(solution["one.s"] + solution["two.s"], 1.0, atol=1e-9)
+
+
+def test_velocity_that_follows_from_forces_is_no_state() -> None:
+    """Without a mass at its end, a damper's velocity follows from the force: its derivative is not asked for."""
+
+    class Pulled(Component):
+        force: Input = Input(unit="N")
+        drive: translational.Force = translational.Force()
+        shaft: translational.SpringDamper = translational.SpringDamper(c=8.0, d=2.0, s_rel=start(1.0, fixed=True))
+        wall: translational.Fixed = translational.Fixed()
+
+        def equations(self) -> Equations:
+            yield self.drive.f == self.force
+            yield connect(self.wall.flange, self.shaft.flange_a)
+            yield connect(self.shaft.flange_b, self.drive.flange)
+
+    system = ac.compile(Pulled())
+    assert system.states == ("shaft.s_rel",)
+    solution = system.simulate(1.0, inputs={"force": 4.0}, saveat=[0.0, 1.0], rtol=1e-9)
+    np.testing.assert_allclose(solution["shaft.s_rel"], [1.0, 0.5 + 0.5 * np.exp(-4.0)], atol=1e-7)
+
+
+def test_impact_keeps_the_relative_velocity() -> None:
+    """What a stop takes from one side it takes from the other, too: the relative velocity is a state."""
+    model = assemble(
+        "mass.flange_b - shaft.flange_a", "shaft.flange_b - stop.flange_a",
+        mass=translational.Mass(m=2.0, v=start(1.0, fixed=True)),
+        shaft=translational.SpringDamper(c=0.0, d=0.0, s_rel=start(0.5, fixed=True), v_rel=start(0.5, fixed=True)),
+        stop=translational.MassWithStopAndFriction(m=1.0, L=0.0, smax=1.0, smin=-1.0, F_prop=0.0, F_Coulomb=1e-6,
+            F_Stribeck=0.0, s=start(0.25, fixed=True)),
+    )  # fmt: skip
+    solution = ac.compile(model).simulate(0.6, saveat=[0.4, 0.6], rtol=1e-8)
+    np.testing.assert_allclose(solution["stop.v"], [1.5, 0.0], atol=1e-5)
+    np.testing.assert_allclose(solution["mass.v"], [1.0, -0.5], atol=1e-5)
 
 
 def test_states_beside_a_prescribed_motion_are_those_of_the_mass() -> None:
