@@ -6,7 +6,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import acausal as ac
@@ -121,13 +121,14 @@ def test_isolation(residual: Expr, kind: Solvability, solution: float | None) ->
 
 
 @given(expressions(kinked=False), points)
+@example(-y * (x + y), (0.0, 0.0, 0.0))
 def test_what_is_isolated_solves_the_equation(e: Expr, point: tuple[float, float, float]) -> None:
     found = isolate(e, x)
     if found.solution is None:
         return
-    at = dict(zip(LEAVES, point, strict=True))
+    at = {leaf: np.float64(value) for leaf, value in zip(LEAVES, point, strict=True)}  # a division by zero is inf
     with np.errstate(all="ignore"):
-        at[x] = float(evaluate((found.solution,), lambda leaf: at[leaf], np)[0])
+        at[x] = np.float64(evaluate((found.solution,), lambda leaf: at[leaf], np)[0])
         residual = float(evaluate((e,), lambda leaf: at[leaf], np)[0])
         slope = float(evaluate((found.coefficient,), lambda leaf: at[leaf], np)[0])
     if np.isfinite(at[x]) and abs(slope) > 1e-6:
