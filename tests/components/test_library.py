@@ -23,8 +23,9 @@ from acausal.components import (
 
 from .examples import EXAMPLES, simulated
 
-MODULES = (blocks, bondgraph, electrical, hydraulic, multibody, multibody.constraints, planar,
-           rotational, thermal, thermal.celsius, translational)  # fmt: skip
+MODULES = (blocks, blocks.discrete, blocks.math_boolean, blocks.math_integer, bondgraph, electrical, hydraulic,
+           multibody, multibody.constraints, planar, rotational, thermal, thermal.celsius,
+           translational)  # fmt: skip
 
 
 def public_classes() -> list[type[Component]]:
@@ -47,7 +48,7 @@ def named(cls: type[Component]) -> str:
 
 def is_partial(cls: type[Component]) -> bool:
     """Whether the class cannot stand in a model on its own: a subclass or the block it is part of completes it."""
-    return cls._partial or cls in {blocks.SignalIn, blocks.SignalOut, blocks.State, electrical.Winding}
+    return cls._partial or cls in {blocks.SignalIn, blocks.SignalOut, electrical.Winding}
 
 
 def test_the_library_is_not_empty() -> None:

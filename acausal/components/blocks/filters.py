@@ -1,133 +1,162 @@
-"""Filters by their cut-off frequency: critical damping, Bessel, Butterworth."""
+"""Filters by their cut-off frequency: critical damping, Bessel, Butterworth, Chebyshev."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Generator
-from typing import Any
 
-import numpy as np
+from acausal import PI, DeclarationError, Equations, Expr, Parameter, Variable, Vector, assert_, der
 
-from acausal import PI, Array, DeclarationError, Equations, Expr, Parameter, der
-
-from ...symbolic.equation import Equation
-from .continuous import State, initialized
-from .interfaces import SISO
-
-
-def poles(kind: str, order: int, normalized: bool) -> list[complex]:
-    """Poles of a low-pass filter of cut-off 1 rad/s, those above the real axis and on it.
-
-    Args:
-        kind: ``"CriticalDamping"``, ``"Bessel"`` or ``"Butterworth"``.
-        order: number of poles.
-        normalized: whether the gain at the cut-off frequency is -3 dB, ``10^(-3/20)``.
-
-    Source: Tietze and Schenk, Halbleiter-Schaltungstechnik (2002), chapter 13; the scaling of
-    Modelica.Blocks.Continuous.Filter.
-    """
-    from scipy.signal import besselap, buttap
-
-    designs: dict[str, Callable[[], Any]] = {
-        "CriticalDamping": lambda: np.full(order, -1.0), "Bessel": lambda: besselap(order, norm="delay")[1],
-        "Butterworth": lambda: buttap(order)[1],
-    }  # fmt: skip
-    if kind not in designs:
-        raise DeclarationError(f"`analogFilter={kind!r}` is none of {', '.join(designs)}")
-    if order < 1:
-        raise DeclarationError(f"`order={order}`: a filter has at least one pole")
-    found = np.asarray(designs[kind](), complex)
-    scale = _cutoff(found) if normalized else 1.0
-    return [complex(p) / scale for p in found if p.imag > -1e-9]
-
-
-def _cutoff(found: Any) -> float:
-    """Frequency at which the gain, which falls all the way, is -3 dB against that at rest."""
-    from scipy.optimize import brentq
-
-    def excess(logarithm: float) -> float:
-        gain = np.prod(np.abs(found) / np.abs(1j * math.exp(logarithm) - found))
-        return math.log(gain) + 3.0 / 20.0 * math.log(10.0)
-
-    root: Any = brentq(excess, -20.0, 20.0)
-    return math.exp(root)
+from .filter_design import FILTERS, Section, band, high_pass, low_pass, poles
+from .interfaces import SISO, initialized
 
 
 class Filter(SISO):
-    """Low-pass or high-pass filter of `order`, with its cut-off at `f_cut` [Hz].
+    """Filter of `order` with its cut-off at `f_cut` [Hz]: low-pass, high-pass, or a band from `f_min` to `f_cut`.
 
     ``y = gain F(s/w) u`` with ``w = 2 pi f_cut``; a high-pass filter is a low-pass filter with ``w/s`` in the place of
-    ``s/w``. `analogFilter` is ``"CriticalDamping"``, ``"Bessel"`` or ``"Butterworth"``; with `normalized` the gain at
-    `f_cut` is -3 dB. It begins at rest with ``initType="SteadyState"``.
+    ``s/w``. `filterType` is LowPass, HighPass, BandPass or BandStop; `analogFilter` is CriticalDamping, Bessel,
+    Butterworth or ChebyshevI (with a ripple of `A_ripple` [dB]). With `normalized` the gain at `f_cut` is -3 dB. It
+    begins at rest with ``init="SteadyState"``, the default; `initType` is the same. The states are those of
+    ``u/u_nominal``.
 
     >>> class Lag(Component):
     ...     step: Step = Step(height=2.0, startTime=0.1)
-    ...     filter: Filter = Filter(order=2, f_cut=1.0 / (2 * np.pi))
+    ...     filter: Filter = Filter(analogFilter="Butterworth", order=2, f_cut=1.0 / (2 * np.pi))
     ...     def equations(self):
     ...         yield connect(self.step.y, self.filter.u)
     >>> t = np.array([1.0, 3.0]) - 0.1
     >>> r = np.sqrt(0.5)
-    >>> close(run(Lag(), at=[1.0, 3.0])["filter.y"], 2 - 2 * np.exp(-r * t) * (np.cos(r * t) + np.sin(r * t)), 1e-2)
+    >>> close(run(Lag(), at=[1.0, 3.0])["filter.y"], 2 - 2 * np.exp(-r * t) * (np.cos(r * t) + np.sin(r * t)))
     True
 
-    Source: Modelica.Blocks.Continuous.Filter.
+    Source: Modelica.Blocks.Continuous.Filter; what passes a band has the gain `gain` here for all `analogFilter`.
     """
 
-    analogFilter: str = "Butterworth"
+    analogFilter: str = "CriticalDamping"
     filterType: str = "LowPass"
     order: int = 2
     normalized: bool = True
-    initType: str = "SteadyState"
-    f_cut: Parameter = Parameter(1.0, unit="Hz", doc="cut-off frequency")
+    init: str = "SteadyState"
+    initType: str = ""
+    f_cut: Parameter = Parameter(1.0, unit="Hz", min=1e-60, doc="cut-off frequency")
+    f_min: Parameter = Parameter(0.0, unit="Hz", min=0.0, doc="lower end of a band, below f_cut")
     gain: Parameter = Parameter(1.0, doc="gain of what passes")
-    x: Array[State] = Array(State(), "order")
+    A_ripple: Parameter = Parameter(0.5, min=1e-60, doc="ripple in the pass band of ChebyshevI [dB]")
+    u_nominal: Parameter = Parameter(1.0, min=1e-60, doc="nominal value of the input")
+    y_start: Parameter = Parameter(0.0, doc="start value of the output")
+
+    @property
+    def nx(self) -> int:
+        """Number of states."""
+        return 2 * self.order if self.filterType in FILTERS[2:] else self.order
+
+    x_start: Vector = Vector(Parameter(0.0, doc="start value of the state"), size="nx")
+    x: Vector = Vector(Variable(doc="state"), x_start, size="nx")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        w, signal, k = 2 * PI * self.f_cut, self.u * 1.0, 0
-        for pole in poles(self.analogFilter, self.order, self.normalized):
-            pair = pole.imag > 1e-9
-            section = self._second(w, signal, pole, k) if pair else self._first(w, signal, -pole.real, k)
-            signal = yield from section
-            k += 2 if pair else 1
-        yield self.y == self.gain * signal
+        if self.filterType not in FILTERS:
+            raise DeclarationError(f"`filterType={self.filterType!r}` is none of {', '.join(FILTERS)}")
+        signal = self.u / self.u_nominal
+        singles, sections = self._parts()
+        for k, rate in enumerate(singles):
+            x = self.x[k]
+            yield der(x) == rate * (signal - x)
+            signal = signal - x if self.filterType == "HighPass" else x
+        for k, part in enumerate(sections):
+            x1, x2 = self.x[len(singles) + 2 * k], self.x[len(singles) + 2 * k + 1]
+            yield der(x1) == part.a * x1 - part.b * x2 + part.ku * signal
+            yield der(x2) == part.b * x1 + part.a * x2
+            out = part.k1 * x1 + part.k2 * x2
+            signal = out + signal if part.through else out
+        if self.filterType in FILTERS[2:]:
+            yield assert_((self.f_min > 0) & (self.f_min < self.f_cut), "a band filter needs 0 < f_min < f_cut")
+            for part in sections:
+                yield assert_(part.b > 0, "the band is too wide for this analogFilter: it gives poles on the real axis")
+        yield self.y == self.gain * self.u_nominal * signal
 
-    @property
-    def high(self) -> bool:
-        """Whether high frequencies pass."""
-        if self.filterType not in ("LowPass", "HighPass"):
-            raise DeclarationError(f"`filterType={self.filterType!r}` is none of LowPass, HighPass")
-        return self.filterType == "HighPass"
-
-    def _first(self, w: Expr, u: Expr, corner: float, k: int) -> Generator[Equation, None, Expr]:
-        """A real pole at ``-corner w`` (high-pass: at ``-w/corner``); what comes out of it."""
-        x = self.x[k].x
-        rate = 1.0 / corner if self.high else corner
-        yield der(x) == w * rate * (u - x)
-        return u - x if self.high else x
-
-    def _second(self, w: Expr, u: Expr, pole: complex, k: int) -> Generator[Equation, None, Expr]:
-        """A pair of poles at `pole` (times w; high-pass: its inverse); what comes out of it."""
-        x, v = self.x[k].x, self.x[k + 1].x
-        at = 1.0 / pole if self.high else pole
-        square = abs(at) ** 2
-        yield der(x) == w * v
-        if self.high:
-            passed = u + 2 * at.real * v - square * x
-            yield der(v) == w * passed
-            return passed
-        yield der(v) == w * (square * (u - x) + 2 * at.real * v)
-        return x
+    def _parts(self) -> tuple[list[Expr], list[Section]]:
+        """Rates of the sections of first order, and the sections of second order."""
+        w = 2 * PI * self.f_cut
+        found = poles(self.analogFilter, self.order, self.normalized, self.A_ripple * 1.0)
+        real, pairs = [p.re for p in found if p.real], [p for p in found if not p.real]
+        if self.filterType == "LowPass":
+            return [-p * w for p in real], [low_pass(p, w) for p in pairs]
+        if self.filterType == "HighPass":
+            return [-w / p for p in real], [high_pass(p, w) for p in pairs]
+        stop = self.filterType == "BandStop"
+        return [], [part for p in found for part in band(p, self.f_min * 1.0, self.f_cut * 1.0, stop=stop)]
 
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()
-        yield from initialized(self.initType, [(self.x[i].x, 0.0) for i in range(self.order)])
+        states = list(zip(self.x, self.x_start, strict=True))
+        yield from initialized(self.initType or self.init, states, (self.y, self.y_start))
+
+
+class LowpassButterworth(SISO):
+    """Butterworth's low-pass filter of order `n` with its cut-off at `f` [Hz], where the gain is ``1/sqrt(2)``.
+
+    Second-order filters with states `x1` and ``x2 = dx1/dt``, and for odd `n` a lag with the state `xr`.
+
+    >>> class Lag(Component):
+    ...     step: Step = Step(height=2.0, startTime=0.1)
+    ...     filter: LowpassButterworth = LowpassButterworth(n=2, f=1.0 / (2 * np.pi))
+    ...     def equations(self):
+    ...         yield connect(self.step.y, self.filter.u)
+    >>> t = np.array([1.0, 3.0]) - 0.1
+    >>> r = np.sqrt(0.5)
+    >>> close(run(Lag(), at=[1.0, 3.0])["filter.y"], 2 - 2 * np.exp(-r * t) * (np.cos(r * t) + np.sin(r * t)))
+    True
+
+    Source: Modelica.Blocks.Continuous.LowpassButterworth.
+    """
+
+    n: int = 2
+    initType: str = "NoInit"
+    f: Parameter = Parameter(1.0, unit="Hz", min=1e-60, doc="cut-off frequency")
+    xr_start: Parameter = Parameter(0.0, doc="start value of the state of the lag")
+    y_start: Parameter = Parameter(0.0, doc="start value of the output")
+    xr: Variable = Variable(start=xr_start, doc="state of the lag; 0 for even n")
+
+    @property
+    def m(self) -> int:
+        """Number of filters of second order."""
+        return self.n // 2
+
+    x1_start: Vector = Vector(Parameter(0.0, doc="start value of the output of a second-order filter"), size="m")
+    x2_start: Vector = Vector(Parameter(0.0, doc="start value of its derivative"), size="m")
+    x1: Vector = Vector(Variable(doc="output of a second-order filter"), x1_start, size="m")
+    x2: Vector = Vector(Variable(doc="its derivative"), x2_start, size="m")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        if self.n < 1:
+            raise DeclarationError(f"`n={self.n}`: a filter has at least one pole")
+        w, signal = 2 * PI * self.f, self.u
+        for i, (x1, x2) in enumerate(zip(self.x1, self.x2, strict=True)):
+            damping = -math.cos(math.pi / 2 + math.pi / self.n * (i + 0.5))
+            yield der(x1) == x2
+            yield der(x2) == w**2 * (signal - x1) - 2 * damping * w * x2
+            signal = x1
+        if self.n % 2:
+            yield der(self.xr) == w * (signal - self.xr)
+            yield self.y == self.xr
+        else:
+            yield self.xr == 0
+            yield self.y == signal
+
+    def initial_equations(self) -> Equations:
+        yield from super().initial_equations()
+        states = [*zip(self.x1, self.x1_start, strict=True), *zip(self.x2, self.x2_start, strict=True)]
+        if self.n % 2:
+            states.append((self.xr, self.xr_start * 1.0))
+        yield from initialized(self.initType, states, (self.y, self.y_start))
 
 
 class CriticalDamping(SISO):
     """Low-pass filter of `n` equal real poles, ``y = u/(1 + s/w)^n`` with ``w = 2 pi f/alpha``: it never overshoots.
 
-    ``alpha = sqrt(10^(3/(10 n)) - 1)`` with `normalized`, so that the gain at the frequency `f` is -3 dB, else 1.
+    ``alpha = sqrt(2^(1/n) - 1)`` with `normalized`, so that the gain at the frequency `f` is ``1/sqrt(2)``, else 1.
 
     >>> class Lag(Component):
     ...     step: Step = Step(height=2.0, startTime=0.1)
@@ -144,18 +173,22 @@ class CriticalDamping(SISO):
     n: int = 2
     normalized: bool = True
     initType: str = "NoInit"
-    f: Parameter = Parameter(1.0, unit="Hz", doc="cut-off frequency")
-    x: Array[State] = Array(State(), "n")
+    f: Parameter = Parameter(1.0, unit="Hz", min=1e-60, doc="cut-off frequency")
+    y_start: Parameter = Parameter(0.0, doc="start value of the output")
+    x_start: Vector = Vector(Parameter(0.0, doc="start value of the state"), size="n")
+    x: Vector = Vector(Variable(doc="state"), x_start, size="n")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        alpha = math.sqrt(10.0 ** (0.3 / self.n) - 1.0) if self.normalized else 1.0
-        signal = self.u * 1.0
-        for i in range(self.n):
-            yield der(self.x[i].x) == 2 * PI * self.f / alpha * (signal - self.x[i].x)
-            signal = self.x[i].x
+        if self.n < 1:
+            raise DeclarationError(f"`n={self.n}`: a filter has at least one pole")
+        alpha = math.sqrt(2.0 ** (1.0 / self.n) - 1.0) if self.normalized else 1.0
+        signal = self.u
+        for x in self.x:
+            yield der(x) == 2 * PI * self.f / alpha * (signal - x)
+            signal = x
         yield self.y == signal
 
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()
-        yield from initialized(self.initType, [(self.x[i].x, 0.0) for i in range(self.n)])
+        yield from initialized(self.initType, list(zip(self.x, self.x_start, strict=True)), (self.y, self.y_start))

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import acausal as ac
-from acausal import Equations
+from acausal import Equations, Parameter, noevent, where
 
 from .interfaces import SISO
 
 
 class Abs(SISO):
-    """Magnitude, ``y = abs(u)``.
+    """Magnitude, ``y = abs(u)``; with `generateEvent` its kink is an event.
 
     >>> close(unary(Abs(), -2.0), 2.0)
     True
@@ -17,13 +17,15 @@ class Abs(SISO):
     Source: Modelica.Blocks.Math.Abs.
     """
 
+    generateEvent: bool = False
+
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.y == ac.abs(self.u)
+        yield self.y == (where(self.u >= 0, self.u, -self.u) if self.generateEvent else ac.abs(self.u))
 
 
 class Sign(SISO):
-    """Sign, -1, 0 or 1, ``y = sign(u)``.
+    """Sign, -1, 0 or 1, ``y = sign(u)``; its jumps are events with `generateEvent` only.
 
     >>> close(unary(Sign(), -2.0), -1.0)
     True
@@ -31,9 +33,11 @@ class Sign(SISO):
     Source: Modelica.Blocks.Math.Sign.
     """
 
+    generateEvent: bool = False
+
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.y == ac.sign(self.u)
+        yield self.y == (ac.sign(self.u) if self.generateEvent else noevent(ac.sign(self.u)))
 
 
 class Sqrt(SISO):
@@ -191,17 +195,35 @@ class Exp(SISO):
 
 
 class Log(SISO):
-    """Natural logarithm, ``y = log(u)``.
+    """Logarithm, ``y = log(u)/log(base)``; natural by default.
 
-    >>> close(unary(Log(), 0.5), np.log(0.5))
+    >>> close([unary(Log(), 0.5), unary(Log(base=2.0), 0.5)], [np.log(0.5), -1.0])
     True
 
     Source: Modelica.Blocks.Math.Log.
     """
 
+    base: Parameter = Parameter(2.718281828459045, min=0.0, doc="base of the logarithm")
+
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.y == ac.log(self.u)
+        yield self.y == ac.log(self.u) / ac.log(self.base)
+
+
+class Exponentiation(SISO):
+    """Power of the signal, ``y = u^exponent``.
+
+    >>> unary(Exponentiation(exponent=3.0), 2.0)
+    8.0
+
+    Source: Modelica.Blocks.Math.Exponentiation.
+    """
+
+    exponent: Parameter = Parameter(2.0, doc="exponent of the power")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.y == self.u**self.exponent
 
 
 class Log10(SISO):

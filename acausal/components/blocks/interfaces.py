@@ -9,6 +9,9 @@ from acausal import Component, DeclarationError, Equations, Expr, Input, Output,
 INITIALIZATIONS = ("NoInit", "SteadyState", "InitialState", "InitialOutput")
 """Values of `initType`, as in Modelica.Blocks.Types.Init."""
 
+BEGINNING = -1e300
+"""A start time that always has been [s]."""
+
 
 class SO(Component, partial=True):
     """One output `y`, no input.

@@ -188,6 +188,49 @@ class Atan2(SI2SO):
         yield self.y == ac.atan2(self.u1, self.u2)
 
 
+class LinearDependency(SI2SO):
+    """Linear combination of two signals, ``y = y0 + k1 u1 + k2 u2``.
+
+    >>> binary(LinearDependency(y0=1.0, k1=2.0, k2=3.0), 5.0, 7.0)
+    32.0
+
+    Source: Modelica.Blocks.Math.LinearDependency.
+    """
+
+    y0: Parameter = Parameter(0.0, doc="value for u1 = u2 = 0")
+    k1: Parameter = Parameter(0.0, doc="weight of u1")
+    k2: Parameter = Parameter(0.0, doc="weight of u2")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.y == self.y0 + self.k1 * self.u1 + self.k2 * self.u2
+
+
+class InverseBlockConstraints(Component):
+    """Two inputs that are equal and two outputs that are: it turns a block around, ``u1 = u2``, ``y1 = y2``.
+
+    What is connected to `u1` is wanted at the output of the block, which goes to `u2`; `y2` is the input of the block,
+    which is found, and comes out at `y1`.
+
+    >>> model = assemble("ramp.y - inverse.u1", "lag.y - inverse.u2", "inverse.y2 - lag.u", ramp=Slope(slope=2.0),
+    ...                  inverse=InverseBlockConstraints(), lag=FirstOrder(T=0.5))
+    >>> close(run(model, at=[0.0, 1.0])["inverse.y1"], [1.0, 3.0])
+    True
+
+    Source: Modelica.Blocks.Math.InverseBlockConstraints.
+    """
+
+    u1: Input = Input(doc="wanted output of the block")
+    u2: Input = Input(doc="output of the block")
+    y1: Output = Output(doc="input of the block that gives it")
+    y2: Output = Output(doc="input of the block")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.u1 == self.u2
+        yield self.y1 == self.y2
+
+
 class Power(SISO):
     """Power of a base, ``y = base^u``.
 

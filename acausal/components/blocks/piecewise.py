@@ -5,14 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cache
 from itertools import pairwise
+from typing import Any
+
+import numpy as np
 
 import acausal as ac
 from acausal import DeclarationError, Expr, where
 
 from ...symbolic.expr import as_expr
 
-SMOOTHNESS = ("LinearSegments", "ConstantSegments", "ContinuousDerivative", "MonotoneContinuousDerivative1")
-EXTRAPOLATION = ("HoldLastPoint", "LastTwoPoints", "Periodic")
+SMOOTHNESS = ("LinearSegments", "ConstantSegments", "ContinuousDerivative", "ModifiedContinuousDerivative",
+              "MonotoneContinuousDerivative1", "MonotoneContinuousDerivative2")  # fmt: skip
+EXTRAPOLATION = ("HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation")
 LONG = 40
 """Points from which on a linear table is one interpolation instead of nested conditions."""
 
@@ -34,8 +38,9 @@ def interpolate(
 ) -> Expr:
     """The function through the points (x, y) at `u`.
 
-    Two points with the same `x` make a jump, at which the second holds. Cubics are Akima's (`ContinuousDerivative`) or
-    Fritsch and Butland's (`MonotoneContinuousDerivative1`).
+    Two points with the same `x` make a jump, at which the second holds. Cubics are Akima's (`ContinuousDerivative`),
+    Fritsch and Butland's (`MonotoneContinuousDerivative1`), Steffen's (`MonotoneContinuousDerivative2`) or the modified
+    ones of Akima (`ModifiedContinuousDerivative`). Without extrapolation the last pieces are continued.
 
     Raises:
         DeclarationError: x that decrease, or a name that is not known.
@@ -44,7 +49,9 @@ def interpolate(
     if len(x) == 1:
         return as_expr(y[0])
     if extrapolation == "Periodic":
-        u = x[0] + (u - x[0]) - (x[-1] - x[0]) * ac.floor((u - x[0]) / (x[-1] - x[0]))
+        u = wrapped(u, x)
+    if extrapolation == "NoExtrapolation":
+        extrapolation = "LastTwoPoints"
     if smoothness == "LinearSegments" and len(x) > LONG and all(b > a for a, b in pairwise(x)):
         return _long(u, tuple(x), tuple(y), extrapolation)
     intervals, coefficients = _coefficients(tuple(x), tuple(y), smoothness)
@@ -58,11 +65,35 @@ def interpolate(
     return piecewise(u, [b for _, b in intervals[:-1]], [_polynomial(u, *c) for c in coefficients])
 
 
-def interpolate2(u1: Expr, u2: Expr, rows: Points, columns: Points, values: Sequence[Points]) -> Expr:
-    """Bilinear interpolation: ``values[i][j]`` at ``(rows[i], columns[j])``, the last cells continued outside."""
-    along = [interpolate(u1, rows, [line[j] for line in values]) for j in range(len(columns))]
+def wrapped(u: Expr, x: Points) -> Expr:
+    """`u` less as many periods, from the first to the last of the points, as bring it among them."""
+    if x[-1] <= x[0]:
+        raise DeclarationError(f"a table that repeats needs two different points, not {list(x)}")
+    return x[0] + (u - x[0]) - (x[-1] - x[0]) * ac.floor((u - x[0]) / (x[-1] - x[0]))
+
+
+def interpolate2(
+    u1: Expr, u2: Expr, rows: Points, columns: Points, values: Sequence[Points], smoothness: str = "LinearSegments",
+    extrapolation: str = "LastTwoPoints",
+) -> Expr:  # fmt: skip
+    """Bilinear interpolation: ``values[i][j]`` at ``(rows[i], columns[j])``, or the value at the lower left corner.
+
+    Raises:
+        DeclarationError: points that decrease, or a name that is not known here: LinearSegments and ConstantSegments.
+    """
+    for points in (rows, columns):
+        _check(points, smoothness, extrapolation)
+    if smoothness not in SMOOTHNESS[:2]:
+        raise DeclarationError(f"smoothness={smoothness!r}: a table over two signals has {' or '.join(SMOOTHNESS[:2])}")
+    if extrapolation == "HoldLastPoint":
+        u1, u2 = ac.clip(u1, rows[0], rows[-1]), ac.clip(u2, columns[0], columns[-1])
+    if extrapolation == "Periodic":
+        u1, u2 = wrapped(u1, rows), wrapped(u2, columns)
+    along = [interpolate(u1, rows, [line[j] for line in values], smoothness) for j in range(len(columns))]
     if len(columns) == 1:
         return along[0]
+    if smoothness == "ConstantSegments":
+        return piecewise(u2, list(columns[1:-1]), along[:-1])
     pieces = [
         a + (b - a) * ((u2 - left) / (right - left))
         for (a, b), (left, right) in zip(pairwise(along), pairwise(columns), strict=True)
@@ -90,10 +121,41 @@ def _coefficients(
         return intervals, [(a, y[i], 0.0, 0.0, 0.0) for i, a, _ in spans]
     if smoothness == "LinearSegments":
         return intervals, [(a, y[i], (y[i + 1] - y[i]) / (b - a), 0.0, 0.0) for i, a, b in spans]
-    from scipy.interpolate import Akima1DInterpolator, PchipInterpolator
+    cubics = _cubics(x, y, smoothness)
+    return intervals, [(a, *(float(c) for c in cubics[::-1, i])) for i, a, _ in spans]
 
-    spline = (Akima1DInterpolator if smoothness == "ContinuousDerivative" else PchipInterpolator)(x, y)
-    return intervals, [(a, *(float(c) for c in spline.c[::-1, i])) for i, a, _ in spans]
+
+def _cubics(x: Points, y: Points, smoothness: str) -> Any:
+    """Coefficients of the cubic of each interval, the highest power first: (4, n - 1)."""
+    from scipy.interpolate import Akima1DInterpolator, CubicHermiteSpline, PchipInterpolator
+
+    if smoothness == "MonotoneContinuousDerivative2":
+        return CubicHermiteSpline(x, y, _steffen(np.asarray(x), np.asarray(y))).c
+    if smoothness == "MonotoneContinuousDerivative1":
+        return PchipInterpolator(x, y).c
+    if len(x) == 2:  # Akima's are straight then
+        return np.array([[0.0], [0.0], [(y[1] - y[0]) / (x[1] - x[0])], [y[0]]])
+    return Akima1DInterpolator(x, y, method="akima" if smoothness == "ContinuousDerivative" else "makima").c
+
+
+def _steffen(x: Any, y: Any) -> Any:
+    """Slopes of a monotone cubic at its points: Steffen (1990), Astronomy and Astrophysics 239, equations 8 to 11."""
+    h, s = np.diff(x), np.diff(y) / np.diff(x)
+    if len(s) == 1:
+        return np.array([s[0], s[0]])
+    p = (s[:-1] * h[1:] + s[1:] * h[:-1]) / (h[:-1] + h[1:])
+    small = np.minimum(np.minimum(np.abs(s[:-1]), np.abs(s[1:])), np.abs(p) / 2)
+    inside = (np.sign(s[:-1]) + np.sign(s[1:])) * small
+    ends = [_steffen_end(s[0], s[1], h[0] / (h[0] + h[1])), _steffen_end(s[-1], s[-2], h[-1] / (h[-1] + h[-2]))]
+    return np.concatenate([ends[:1], inside, ends[1:]])
+
+
+def _steffen_end(first: float, second: float, share: float) -> float:
+    """Slope at an end from those of the two intervals next to it."""
+    p = first * (1 + share) - second * share
+    if p * first <= 0:
+        return 0.0
+    return 2 * first if abs(p) > 2 * abs(first) else p
 
 
 def _polynomial(u: Expr, origin: float, *coefficients: float) -> Expr:
