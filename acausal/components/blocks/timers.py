@@ -126,9 +126,9 @@ class TerminateSimulation(Component):
     """Ends the run when the boolean `condition` becomes true.
 
     >>> model = assemble("step.y - end.condition", step=BooleanStep(startTime=0.5), end=TerminateSimulation())
-    >>> solution = ac.compile(model).simulate(1.0)
-    >>> float(solution.t[-1])
-    0.5
+    >>> solution = ac.compile(model).simulate(1.0, saveat=[0.0, 0.25, 0.75, 1.0])
+    >>> np.asarray(solution.t).tolist()
+    [0.0, 0.25, 0.5]
 
     Source: Modelica.Blocks.Logical.TerminateSimulation.
     """
