@@ -137,7 +137,7 @@ def reduce_index(reduced: Reduced) -> IndexReduced:
     graph = rows.incidence(flat.n_total, reduced.unknown)
     active = np.where(reduced.unknown, flat.derivative_of, -1)
     sources = np.concatenate([np.zeros(0, np.int64), *(f.source for f in reduced.families)])
-    rules = derivative_rules(flat, reduced.rules, graph, sources, reduced.unknown)
+    rules = derivative_rules(reduced, graph, sources)
     ordinary = np.setdiff1d(np.arange(len(rows)), rules.rows)
     part = graph.select(rows=ordinary)
     extra = rules.extra(part, reduced.unknown) if rules.any else None
@@ -215,14 +215,16 @@ def differentiate_family(
     family: Family, derivative_of: Ints, flat: FlatModel, rules: DerivativeRules
 ) -> list[tuple[Ints, Family]]:
     """Total time derivative of a family, in parts: rows and their derivatives."""
-    _refuse_inputs(family, flat)
+    _refuse_inputs(family, flat, rules)
     out: list[tuple[Ints, Family]] = []
     for rows, part, known in apply_rules(family, rules):
         k = part.var_rows.shape[1]
 
         def tangent(leaf: Expr, k: int = k, known: dict[Expr, Expr] = known) -> Expr:
+            if leaf in known:
+                return known[leaf]
             if leaf.op == "var":
-                return known[leaf] if leaf in known else var(k + leaf.value)
+                return var(k + leaf.value)
             return ONE if leaf.op == "time" else ZERO
 
         residual = differentiate((_between_events(part, flat),), tangent)[0]
@@ -234,10 +236,11 @@ def differentiate_family(
     return out
 
 
-def _refuse_inputs(family: Family, flat: FlatModel) -> None:
-    """Inputs from outside have no derivative that is known."""
+def _refuse_inputs(family: Family, flat: FlatModel, rules: DerivativeRules) -> None:
+    """Inputs from outside have no derivative that is known, but for those with a rule."""
     held = flat.n_par + len(flat.inputs)
     fed = (family.par_rows >= flat.n_par) & (family.par_rows < held)
+    fed &= ~np.isin(family.par_rows, list(rules.inputs))
     if fed.any():
         i = int(np.flatnonzero(fed.any(axis=1))[0])
         component, place = flat.equation_place(family, i)

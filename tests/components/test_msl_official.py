@@ -40,7 +40,7 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
     "Accelerate": msl_slides.accelerate, "Damper": msl_slides.damper,
     "InitialConditions": msl_slides.initial_conditions, "Sensors": msl_slides.sensors,
     "SignConvention": msl_slides.sign_convention, "Vehicle": msl_slides.vehicle, "WhyArrows": msl_slides.why_arrows,
-    "SlidingFriction": msl_slides.friction, "TranslationalHeatLosses": msl_slides.heat_losses,
+    "SlidingFriction": msl_slides.friction,
     "CharacteristicIdealDiodes": msl_characteristics.characteristic_ideal_diodes,
     "CharacteristicThyristors": msl_characteristics.characteristic_thyristors,
     "Comparator": msl_characteristics.comparator,

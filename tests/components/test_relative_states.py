@@ -110,3 +110,24 @@ def test_units_have_no_parameters_that_are_built_in(tmp_path: Path, version: Any
     knowns = {int(k) for row in rows for k in row.attrib["dependencies"].split()}
     numbers = set(references.values()) if version == "3.0" else set(range(1, len(references) + 1))
     assert knowns and knowns <= numbers
+
+
+@pytest.mark.parametrize(
+    ("wish", "states"),
+    [("default", {"relative.s_rel", "relative.v_rel"}), ("always", {"two.s", "two.v"})],
+)
+def test_masses_may_be_states(wish: str, states: set[str]) -> None:
+    model = assemble(
+        "one.flange_a - relative.flange_a", "two.flange_a - relative.flange_b", one=translational.Mass(),
+        two=translational.Mass(stateSelect=wish), relative=translational.RelativeStates(),
+    )  # fmt: skip
+    assert states < set(ac.compile(model).states)
+
+
+@pytest.mark.parametrize("wish", ["prefer", "avoid"])
+def test_relative_states_may_be_left_out(wish: str) -> None:
+    model = assemble(
+        "one.flange_a - relative.flange_a", "two.flange_a - relative.flange_b", one=rotational.Inertia(),
+        two=rotational.Inertia(), relative=rotational.RelativeStates(stateSelect=wish, phi_nominal=1e-3),
+    )  # fmt: skip
+    assert ("relative.phi_rel" in ac.compile(model).states) == (wish == "prefer")

@@ -5,12 +5,19 @@ component in the direction of increasing `phi`. Components with `useSupport` tak
 `support`; without it they stand on the fixed housing.
 """
 
+# first, as it has the gears of this package under its own name, too
+from .. import translational as translational
+from .adaptors import AngleToTorqueAdaptor as AngleToTorqueAdaptor
+from .adaptors import GeneralAngleToTorqueAdaptor as GeneralAngleToTorqueAdaptor
+from .adaptors import GeneralTorqueToAngleAdaptor as GeneralTorqueToAngleAdaptor
+from .adaptors import TorqueToAngleAdaptor as TorqueToAngleAdaptor
 from .components import Damper as Damper
 from .components import Disc as Disc
 from .components import ElastoBacklash as ElastoBacklash
 from .components import ElastoBacklash2 as ElastoBacklash2
 from .components import Fixed as Fixed
 from .components import Inertia as Inertia
+from .components import InitializeFlange as InitializeFlange
 from .components import PartialElastoBacklash as PartialElastoBacklash
 from .components import RelativeStates as RelativeStates
 from .components import Spring as Spring
@@ -53,6 +60,7 @@ from .sources import ConstantTorque as ConstantTorque
 from .sources import EddyCurrentTorque as EddyCurrentTorque
 from .sources import InverseSpeedDependentTorque as InverseSpeedDependentTorque
 from .sources import LinearSpeedDependentTorque as LinearSpeedDependentTorque
+from .sources import Move as Move
 from .sources import PartialSpeedDependent as PartialSpeedDependent
 from .sources import Position as Position
 from .sources import QuadraticSpeedDependentTorque as QuadraticSpeedDependentTorque

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import acausal as ac
-from acausal import Component, Equations, Expr, Parameter, Variable, der, where
+from acausal import Component, Equations, Expr, Input, Parameter, Variable, der, structural, where
 
 from .. import thermal
 from .interfaces import Flange, PartialCompliant, PartialCompliantWithRelativeStates, PartialTwoFlanges
@@ -20,9 +20,10 @@ class Inertia(PartialTwoFlanges):
     Source: Modelica.Mechanics.Rotational.Components.Inertia.
     """
 
+    stateSelect: str = "default"
     J: Parameter = Parameter(1.0, unit="kg*m2", min=0.0, doc="moment of inertia")
-    phi: Variable = Variable(unit="rad", doc="absolute angle")
-    w: Variable = Variable(unit="rad/s", doc="absolute angular velocity")
+    phi: Variable = Variable(unit="rad", state_select=structural("stateSelect"), doc="absolute angle")
+    w: Variable = Variable(unit="rad/s", state_select=structural("stateSelect"), doc="absolute angular velocity")
     a: Variable = Variable(unit="rad/s2", doc="absolute angular acceleration")
 
     def equations(self) -> Equations:
@@ -105,7 +106,7 @@ class Damper(thermal.PartialConditionalHeatPort, PartialCompliantWithRelativeSta
     Source: Modelica.Mechanics.Rotational.Components.Damper.
     """
 
-    d: Parameter = Parameter(1.0, unit="N*m*s/rad", min=0.0, doc="damping constant")
+    d: Parameter = Parameter(0.0, unit="N*m*s/rad", min=0.0, doc="damping constant")
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -126,7 +127,7 @@ class SpringDamper(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
     """
 
     c: Parameter = Parameter(1e5, unit="N*m/rad", min=0.0, doc="spring constant")
-    d: Parameter = Parameter(1.0, unit="N*m*s/rad", min=0.0, doc="damping constant")
+    d: Parameter = Parameter(0.0, unit="N*m*s/rad", min=0.0, doc="damping constant")
     phi_rel0: Parameter = Parameter(0.0, unit="rad", doc="unstretched angle")
 
     def equations(self) -> Equations:
@@ -234,8 +235,14 @@ class RelativeStates(PartialTwoFlanges):
     Source: Modelica.Mechanics.Rotational.Components.RelativeStates.
     """
 
-    phi_rel: Variable = Variable(unit="rad", start=0.0, state_select="prefer", doc="relative angle")
-    w_rel: Variable = Variable(unit="rad/s", start=0.0, state_select="prefer", doc="relative angular velocity")
+    stateSelect: str = "prefer"
+    phi_nominal: Parameter = Parameter(1.0, unit="rad", evaluate=True, doc="typical size of phi_rel")
+    phi_rel: Variable = Variable(
+        unit="rad", start=0.0, state_select=structural("stateSelect"), nominal=phi_nominal, doc="relative angle"
+    )
+    w_rel: Variable = Variable(
+        unit="rad/s", start=0.0, state_select=structural("stateSelect"), doc="relative angular velocity"
+    )
     a_rel: Variable = Variable(unit="rad/s2", doc="relative angular acceleration")
 
     def equations(self) -> Equations:
@@ -245,3 +252,46 @@ class RelativeStates(PartialTwoFlanges):
         yield self.a_rel == der(self.w_rel)
         yield self.flange_a.tau == 0
         yield self.flange_b.tau == 0
+
+
+class InitializeFlange(Component):
+    """Signals say how the flange starts: its angle, velocity and acceleration, each with ``use_..._start``; no torque.
+
+    >>> model = assemble("at.y - begin.phi_start", "speed.y - begin.w_start", "begin.flange - body.flange_a",
+    ...                  at=blocks.Constant(k=2.0), speed=blocks.Constant(k=3.0), body=Inertia(),
+    ...                  begin=InitializeFlange(use_a_start=False))
+    >>> close(run(model, at=[0.0, 1.0])["body.phi"], [2.0, 5.0])
+    True
+
+    Source: Modelica.Mechanics.Rotational.Components.InitializeFlange.
+    """
+
+    use_phi_start: bool = True
+    use_w_start: bool = True
+    use_a_start: bool = True
+    stateSelect: str = "default"
+    flange: Flange = Flange()
+    phi_start: Input = Input(unit="rad", doc="angle at the start, with use_phi_start")
+    w_start: Input = Input(unit="rad/s", doc="velocity at the start, with use_w_start")
+    a_start: Input = Input(unit="rad/s2", doc="acceleration at the start, with use_a_start")
+    phi_flange: Variable = Variable(unit="rad", state_select=structural("stateSelect"), doc="angle of the flange")
+    w_flange: Variable = Variable(unit="rad/s", state_select=structural("stateSelect"), doc="its velocity")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.phi_flange == self.flange.phi
+        yield self.w_flange == der(self.phi_flange)
+        yield self.flange.tau == 0
+        given = (self.use_phi_start, self.use_w_start, self.use_a_start)
+        for signal, use in zip((self.phi_start, self.w_start, self.a_start), given, strict=True):
+            if not use:
+                yield signal == 0
+
+    def initial_equations(self) -> Equations:
+        yield from super().initial_equations()
+        if self.use_phi_start:
+            yield self.phi_flange == self.phi_start
+        if self.use_w_start:
+            yield self.w_flange == self.w_start
+        if self.use_a_start:
+            yield der(self.w_flange) == self.a_start

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from acausal import Component, Equations, Parameter, Variable, conditional
 
-from .. import translational
+from ..translational.interfaces import Flange as TranslationalFlange
 from .interfaces import Flange, PartialTwoFlangesAndSupport
 
 
@@ -69,9 +69,9 @@ class PartialRotationalToTranslational(Component, partial=True):
     useSupportR: bool = False
     useSupportT: bool = False
     flangeR: Flange = Flange()
-    flangeT: translational.Flange = translational.Flange()
+    flangeT: TranslationalFlange = TranslationalFlange()
     supportR: Flange = conditional(Flange(), "useSupportR")
-    supportT: translational.Flange = conditional(translational.Flange(), "useSupportT")
+    supportT: TranslationalFlange = conditional(TranslationalFlange(), "useSupportT")
     phi: Variable = Variable(unit="rad", doc="angle of flangeR relative to its support")
     s: Variable = Variable(unit="m", doc="position of flangeT relative to its support")
 

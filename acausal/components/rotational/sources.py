@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import acausal as ac
-from acausal import PI, Equations, Input, Parameter, Variable, der, where
+from acausal import PI, Equations, Input, Parameter, Variable, Vector, der, where
 
 from .. import thermal
+from ..adaptors import differentiated
 from ..friction import regularized_sign
 from .interfaces import PartialOneFlangeAndSupport, PartialTwoFlanges
 
@@ -336,3 +337,32 @@ class Accelerate(PartialOneFlangeAndSupport):
         yield self.w == der(self.phi)
         yield self.a == der(self.w)
         yield self.a == self.a_ref
+
+
+class Move(PartialOneFlangeAndSupport):
+    """Motion with a reference angle ``u[1]``, velocity ``u[2] = du[1]/dt`` and acceleration ``u[3] = du[2]/dt``.
+
+    Velocity and acceleration are needed where the three are inputs of the whole model, whose derivatives nothing else
+    would say.
+
+    >>> class Driven(Component):
+    ...     move: Move = Move()
+    ...     body: Inertia = Inertia(J=2.0)
+    ...     def equations(self):
+    ...         yield connect(self.move.flange, self.body.flange_a)
+    ...         yield self.move.u[0] == ac.time**2
+    ...         yield self.move.u[1] == 2 * ac.time
+    ...         yield self.move.u[2] == 2.0
+    >>> driven = run(Driven(), at=[0.5, 1.0])
+    >>> close(driven["body.phi"], [0.25, 1.0]) and close(driven["body.flange_a.tau"], [4.0, 4.0])
+    True
+
+    Source: Modelica.Mechanics.Rotational.Sources.Move.
+    """
+
+    u: Vector = Vector(Input(doc="angle, velocity and acceleration of the flange relative to the support"), size=3)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.phi == self.u[0]
+        yield from differentiated(self.u[0], self.u[1], self.u[2])

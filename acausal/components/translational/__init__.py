@@ -5,10 +5,15 @@ in the direction of increasing `s`. A force between two flanges is positive when
 Components with `useSupport` take their reaction to the flange `support`; without it they stand on the fixed housing.
 """
 
+from ..rotational.gears import IdealGearR2T as IdealGearR2T
+from ..rotational.gears import IdealRollingWheel as IdealRollingWheel
+from .adaptors import GeneralForceToPositionAdaptor as GeneralForceToPositionAdaptor
+from .adaptors import GeneralPositionToForceAdaptor as GeneralPositionToForceAdaptor
 from .components import Damper as Damper
 from .components import ElastoGap as ElastoGap
 from .components import EndStops as EndStops
 from .components import Fixed as Fixed
+from .components import InitializeFlange as InitializeFlange
 from .components import Mass as Mass
 from .components import PointMass as PointMass
 from .components import RelativeStates as RelativeStates
@@ -50,6 +55,7 @@ from .sources import Force2 as Force2
 from .sources import ForceStep as ForceStep
 from .sources import InverseSpeedDependentForce as InverseSpeedDependentForce
 from .sources import LinearSpeedDependentForce as LinearSpeedDependentForce
+from .sources import Move as Move
 from .sources import PartialSpeedDependent as PartialSpeedDependent
 from .sources import Position as Position
 from .sources import QuadraticSpeedDependentForce as QuadraticSpeedDependentForce

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import acausal as ac
-from acausal import Component, Equations, Parameter, Variable, der, where
+from acausal import Component, Equations, Input, Parameter, Variable, der, structural, where
 
 from .. import thermal
 from .interfaces import Flange, PartialCompliant, PartialCompliantWithRelativeStates, PartialRigid, PartialTwoFlanges
@@ -21,8 +21,10 @@ class Mass(PartialRigid):
     Source: Modelica.Mechanics.Translational.Components.Mass.
     """
 
+    stateSelect: str = "default"
     m: Parameter = Parameter(1.0, unit="kg", min=0.0, doc="mass")
-    v: Variable = Variable(unit="m/s", doc="velocity")
+    s: Variable = Variable(unit="m", state_select=structural("stateSelect"), doc="position of the centre")
+    v: Variable = Variable(unit="m/s", state_select=structural("stateSelect"), doc="velocity")
     a: Variable = Variable(unit="m/s2", doc="acceleration")
 
     def equations(self) -> Equations:
@@ -124,7 +126,7 @@ class Damper(thermal.PartialConditionalHeatPort, PartialCompliantWithRelativeSta
     Source: Modelica.Mechanics.Translational.Components.Damper.
     """
 
-    d: Parameter = Parameter(1.0, unit="N*s/m", min=0.0, doc="damping constant")
+    d: Parameter = Parameter(0.0, unit="N*s/m", min=0.0, doc="damping constant")
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -166,8 +168,13 @@ class RelativeStates(PartialTwoFlanges):
     Source: Modelica.Mechanics.Translational.Components.RelativeStates.
     """
 
-    s_rel: Variable = Variable(unit="m", start=0.0, state_select="prefer", doc="relative position")
-    v_rel: Variable = Variable(unit="m/s", start=0.0, state_select="prefer", doc="relative velocity")
+    stateSelect: str = "prefer"
+    s_rel: Variable = Variable(
+        unit="m", start=0.0, state_select=structural("stateSelect"), doc="relative position"
+    )
+    v_rel: Variable = Variable(
+        unit="m/s", start=0.0, state_select=structural("stateSelect"), doc="relative velocity"
+    )
     a_rel: Variable = Variable(unit="m/s2", doc="relative acceleration")
 
     def equations(self) -> Equations:
@@ -182,8 +189,8 @@ class RelativeStates(PartialTwoFlanges):
 class ElastoGap(thermal.PartialConditionalHeatPort, PartialCompliantWithRelativeStates):
     """Spring and damper that touch where ``s_rel < s_rel0``; contact never pulls.
 
-    In contact ``f = f_c + f_d`` with ``f_c = -c |s_rel - s_rel0|^n`` and ``f_d = d v_rel`` limited to ``-f_c ... f_c``;
-    without contact ``f = 0``.
+    In contact ``f = f_c + f_d``, ``f_c = -f_ref |(s_rel - s_rel0)/s_ref|^n`` with ``f_ref = c s_ref``, and ``f_d =
+    d v_rel`` limited to ``-f_c ... f_c``; without contact ``f = 0``.
 
     >>> model = assemble("floor.flange - gap.flange_a", "gap.flange_b - ball.flange", floor=Fixed(),
     ...                  gap=ElastoGap(c=np.pi**2 * 2.0, d=0.0),
@@ -194,19 +201,19 @@ class ElastoGap(thermal.PartialConditionalHeatPort, PartialCompliantWithRelative
     Source: Modelica.Mechanics.Translational.Components.ElastoGap.
     """
 
-    c: Parameter = Parameter(1.0, unit="N/m", min=0.0, doc="spring constant; of |s_rel - s_rel0|^n over 1 m^(n-1)")
+    c: Parameter = Parameter(1.0, unit="N/m", min=0.0, doc="spring constant")
     d: Parameter = Parameter(1.0, unit="N*s/m", min=0.0, doc="damping constant")
     s_rel0: Parameter = Parameter(0.0, unit="m", doc="unstretched length")
+    s_ref: Parameter = Parameter(1.0, unit="m", min=1e-15, doc="compression at which the spring has f_ref")
+    f_ref: Parameter = Parameter(c * s_ref, unit="N", min=0.0, doc="force of the spring at s_ref")
     n: Parameter = Parameter(1.0, unit="1", min=1.0, doc="exponent of the spring's law")
-    metre: Parameter = Parameter(1.0, unit="m", doc="unit of the compression that the exponent applies to")
     f_c: Variable = Variable(unit="N", nominal=1e3, doc="force of the spring")
     f_d: Variable = Variable(unit="N", nominal=1e3, doc="force of the damper")
 
     def equations(self) -> Equations:
         yield from super().equations()
         gap = self.s_rel - self.s_rel0
-        compression = ac.max(-gap, 0.0) / self.metre
-        yield self.f_c == -self.c * self.metre * compression**self.n
+        yield self.f_c == -self.f_ref * (ac.max(-gap, 0.0) / self.s_ref) ** self.n
         yield self.f_d == where(gap < 0, ac.noevent(ac.clip(self.d * self.v_rel, self.f_c, -self.f_c)), 0.0)
         yield self.f == self.f_c + self.f_d
         yield self.lossPower == self.f_d * self.v_rel
@@ -260,3 +267,46 @@ class ViscousFriction(Component):
         yield from super().equations()
         yield self.v == der(self.flange.s)
         yield self.flange.f == self.d * self.v
+
+
+class InitializeFlange(Component):
+    """Signals say how the flange starts: position, velocity and acceleration, each with ``use_..._start``; no force.
+
+    >>> model = assemble("at.y - begin.s_start", "speed.y - begin.v_start", "begin.flange - body.flange_a",
+    ...                  at=blocks.Constant(k=2.0), speed=blocks.Constant(k=3.0), body=Mass(),
+    ...                  begin=InitializeFlange(use_a_start=False))
+    >>> close(run(model, at=[0.0, 1.0])["body.s"], [2.0, 5.0])
+    True
+
+    Source: Modelica.Mechanics.Translational.Components.InitializeFlange.
+    """
+
+    use_s_start: bool = True
+    use_v_start: bool = True
+    use_a_start: bool = True
+    stateSelect: str = "default"
+    flange: Flange = Flange()
+    s_start: Input = Input(unit="m", doc="position at the start, with use_s_start")
+    v_start: Input = Input(unit="m/s", doc="velocity at the start, with use_v_start")
+    a_start: Input = Input(unit="m/s2", doc="acceleration at the start, with use_a_start")
+    s_flange: Variable = Variable(unit="m", state_select=structural("stateSelect"), doc="position of the flange")
+    v_flange: Variable = Variable(unit="m/s", state_select=structural("stateSelect"), doc="its velocity")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.s_flange == self.flange.s
+        yield self.v_flange == der(self.s_flange)
+        yield self.flange.f == 0
+        given = (self.use_s_start, self.use_v_start, self.use_a_start)
+        for signal, use in zip((self.s_start, self.v_start, self.a_start), given, strict=True):
+            if not use:
+                yield signal == 0
+
+    def initial_equations(self) -> Equations:
+        yield from super().initial_equations()
+        if self.use_s_start:
+            yield self.s_flange == self.s_start
+        if self.use_v_start:
+            yield self.v_flange == self.v_start
+        if self.use_a_start:
+            yield der(self.v_flange) == self.a_start

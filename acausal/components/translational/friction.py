@@ -23,7 +23,7 @@ class PartialFriction(Component, partial=True):
     in Modelica based on the synchronous data flow principle, CACSD 1999.
     """
 
-    v_small: Parameter = Parameter(1e10, unit="m/s", doc="speed near 0, needed where an impulse stops the motion")
+    v_small: Parameter = Parameter(1e-3, unit="m/s", doc="speed near 0, needed where an impulse stops the motion")
     unitAcceleration: Parameter = Parameter(1.0, unit="m/s2", doc="scale of sa as an acceleration")
     unitForce: Parameter = Parameter(1.0, unit="N", doc="scale of sa as a force")
     v_relfric: Variable = Variable(unit="m/s", doc="relative velocity between the frictional surfaces")
@@ -194,7 +194,6 @@ class MassWithStopAndFriction(thermal.PartialConditionalHeatPort, PartialFrictio
     m: Parameter = Parameter(1.0, unit="kg", min=0.0, doc="mass")
     smax: Parameter = Parameter(25.0, unit="m", doc="right stop, for the right end")
     smin: Parameter = Parameter(-25.0, unit="m", doc="left stop, for the left end")
-    v_small: Parameter = Parameter(1e-3, unit="m/s", doc="speed near 0, needed where an impulse stops the motion")
     F_prop: Parameter = Parameter(1.0, unit="N*s/m", min=0.0, doc="friction in proportion to the velocity")
     F_Coulomb: Parameter = Parameter(5.0, unit="N", doc="constant friction")
     F_Stribeck: Parameter = Parameter(10.0, unit="N", doc="additional friction at low speed")
