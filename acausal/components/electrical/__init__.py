@@ -3,6 +3,11 @@
 Every circuit needs a `Ground`. The current of a pin is positive into the component.
 """
 
+from .arcs import CloserWithArc as CloserWithArc
+from .arcs import ControlledCloserWithArc as ControlledCloserWithArc
+from .arcs import ControlledOpenerWithArc as ControlledOpenerWithArc
+from .arcs import OpenerWithArc as OpenerWithArc
+from .arcs import PartialSwitchWithArc as PartialSwitchWithArc
 from .basic import Capacitor as Capacitor
 from .basic import Conductor as Conductor
 from .basic import Ground as Ground
@@ -28,6 +33,11 @@ from .current_sources import TableCurrent as TableCurrent
 from .current_sources import TrapezoidCurrent as TrapezoidCurrent
 from .ideal import Idle as Idle
 from .ideal import Short as Short
+from .ideal_semiconductors import IdealDiode as IdealDiode
+from .ideal_semiconductors import IdealGTOThyristor as IdealGTOThyristor
+from .ideal_semiconductors import IdealThyristor as IdealThyristor
+from .ideal_semiconductors import IdealTriac as IdealTriac
+from .ideal_semiconductors import PartialIdealSemiconductor as PartialIdealSemiconductor
 from .interfaces import ConditionalHeatPort as ConditionalHeatPort
 from .interfaces import CurrentSource as CurrentSource
 from .interfaces import OnePort as OnePort
@@ -35,6 +45,9 @@ from .interfaces import Pin as Pin
 from .interfaces import TwoPin as TwoPin
 from .interfaces import TwoPort as TwoPort
 from .interfaces import VoltageSource as VoltageSource
+from .lines import OLine as OLine
+from .lines import PartialLine as PartialLine
+from .lines import ULine as ULine
 from .opamps import IdealizedOpAmpLimited as IdealizedOpAmpLimited
 from .opamps import IdealizedOpAmpLimted as IdealizedOpAmpLimted
 from .opamps import IdealOpAmp as IdealOpAmp
@@ -46,7 +59,6 @@ from .opamps import OpAmpLimited as OpAmpLimited
 from .semiconductors import Diode as Diode
 from .semiconductors import Diode2 as Diode2
 from .semiconductors import HeatingDiode as HeatingDiode
-from .semiconductors import Thyristor as Thyristor
 from .semiconductors import ZDiode as ZDiode
 from .semiconductors import exlin as exlin
 from .semiconductors import exlin2 as exlin2
@@ -56,22 +68,19 @@ from .sensors import MultiSensor as MultiSensor
 from .sensors import PotentialSensor as PotentialSensor
 from .sensors import PowerSensor as PowerSensor
 from .sensors import VoltageSensor as VoltageSensor
-from .switches import CloserWithArc as CloserWithArc
 from .switches import ControlledIdealClosingSwitch as ControlledIdealClosingSwitch
+from .switches import ControlledIdealIntermediateSwitch as ControlledIdealIntermediateSwitch
 from .switches import ControlledIdealOpeningSwitch as ControlledIdealOpeningSwitch
 from .switches import ControlledIdealTwoWaySwitch as ControlledIdealTwoWaySwitch
 from .switches import IdealClosingSwitch as IdealClosingSwitch
-from .switches import IdealDiode as IdealDiode
-from .switches import IdealGTOThyristor as IdealGTOThyristor
+from .switches import IdealIntermediateSwitch as IdealIntermediateSwitch
 from .switches import IdealOpeningSwitch as IdealOpeningSwitch
-from .switches import IdealThyristor as IdealThyristor
-from .switches import IdealTriac as IdealTriac
 from .switches import IdealTwoWaySwitch as IdealTwoWaySwitch
-from .switches import OpenerWithArc as OpenerWithArc
-from .switches import PartialIdealSemiconductor as PartialIdealSemiconductor
 from .switches import PartialIdealSwitch as PartialIdealSwitch
-from .switches import PartialSwitchWithArc as PartialSwitchWithArc
+from .switches import PartialIntermediateSwitch as PartialIntermediateSwitch
 from .switches import PartialTwoWaySwitch as PartialTwoWaySwitch
+from .thyristors import SimpleTriac as SimpleTriac
+from .thyristors import Thyristor as Thyristor
 from .transistors import NMOS as NMOS
 from .transistors import NPN as NPN
 from .transistors import PMOS as PMOS
@@ -93,6 +102,11 @@ from .twoports import RotationalEMF as RotationalEMF
 from .twoports import Transformer as Transformer
 from .twoports import TranslationalEMF as TranslationalEMF
 from .twoports import Winding as Winding
+from .variable_sources import CosineCurrentVariableFrequencyAndAmplitude as CosineCurrentVariableFrequencyAndAmplitude
+from .variable_sources import CosineVoltageVariableFrequencyAndAmplitude as CosineVoltageVariableFrequencyAndAmplitude
+from .variable_sources import PartialVariableFrequency as PartialVariableFrequency
+from .variable_sources import SineCurrentVariableFrequencyAndAmplitude as SineCurrentVariableFrequencyAndAmplitude
+from .variable_sources import SineVoltageVariableFrequencyAndAmplitude as SineVoltageVariableFrequencyAndAmplitude
 from .voltage_sources import ConstantVoltage as ConstantVoltage
 from .voltage_sources import CosineVoltage as CosineVoltage
 from .voltage_sources import ExponentialsVoltage as ExponentialsVoltage
