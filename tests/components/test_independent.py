@@ -30,6 +30,9 @@ NOT_INTEGRATED = {
 }  # fmt: skip
 # The same, and nine points do not resolve the derivatives well enough for their integral either.
 RESIDUAL_ONLY = {"electrical.transistors.HeatingNPN", "electrical.transistors.HeatingPNP"}
+# The current of a conducting ideal diode (1e-5 ohm) is a difference of potentials there, which are right to ten digits.
+# In the equations without those of the diodes it is another difference, and right.
+DIFFERENCES = {"electrical.thyristors.SimpleTriac": "idealDiode"}
 
 PARAMETERS = [
     pytest.param(cls, id=named(cls), marks=() if k % SPREAD == 0 else pytest.mark.slow)
@@ -47,7 +50,9 @@ def checks(cls: type[Component]) -> list[Check]:
 def test_example_agrees_with_independent_solution(cls: type[Component]) -> None:
     name, found = named(cls), checks(cls)
     for check in found:
-        worst, equation = residual(check)
+        if name in DIFFERENCES:
+            assert residual(check)[0] > RESIDUAL, f"{name} is precise now: take it out of the list"
+        worst, equation = residual(check, DIFFERENCES.get(name))
         assert worst <= RESIDUAL, f"residual {worst:.1e} of {equation}"
         assert not broken(check), broken(check)
     worst = max(_disagreement(check) for check in found)
@@ -66,7 +71,7 @@ def _disagreement(check: Check) -> float:
 
 def test_lists_name_components() -> None:
     names = set(map(named, CLASSES))
-    assert names >= NOT_INTEGRATED | RESIDUAL_ONLY
+    assert names >= NOT_INTEGRATED | RESIDUAL_ONLY | DIFFERENCES.keys()
 
 
 def test_wrong_solutions_are_seen() -> None:

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.components import blocks, electrical, rotational, thermal
+from acausal.components import blocks, rotational
 from acausal.components.examples import assemble, start
 
 from . import msl_characteristics, msl_circuits, msl_drives, msl_gates, msl_mechanisms, msl_shafts, msl_slides
@@ -73,40 +73,3 @@ def test_ideal_lossy_gear_is_free() -> None:
     wanted = 3.0 / 1.5 / (2 * np.pi) * (1 - np.cos(2 * np.pi * np.linspace(0.0, 2.0, 21)))
     for solution in found:
         np.testing.assert_allclose(solution["one.w"], wanted, atol=1e-7)
-
-
-@pytest.mark.parametrize(("where", "begins"), [("Linear", 0.0), ("UpperLimit", 15.0), ("LowerLimit", -15.0)])
-def test_start_of_an_amplifier(where: str, begins: float) -> None:
-    model = assemble(
-        "source.p - amp.in_p", "amp.in_n - amp.out - load.p", "source.n - load.n - ground.p",
-        source=electrical.ConstantVoltage(V=0.0), load=electrical.Resistor(R=1e3), ground=electrical.Ground(),
-        amp=electrical.OpAmpLimited(useFirstOrder=True, Tau=1.0, initOpAmp=where),
-    )  # fmt: skip
-    solution = ac.compile(model).simulate(0.01, saveat=[0.0, 0.01])
-    np.testing.assert_allclose(solution["load.v"], [begins, 0.0], atol=1e-5)
-
-
-def test_unknown_start_of_an_amplifier() -> None:
-    with pytest.raises(ac.DeclarationError, match=r"initOpAmp='Top'.*Linear, UpperLimit, LowerLimit"):
-        ac.compile(electrical.OpAmpLimited(initOpAmp="Top"))
-
-
-def test_pulses_that_end() -> None:
-    model = assemble(
-        "source.p - load.p", "source.n - load.n - ground.p", load=electrical.Resistor(R=2.0),
-        source=electrical.PulseVoltage(V=4.0, period=0.2, nperiod=2), ground=electrical.Ground(),
-    )  # fmt: skip
-    solution = ac.compile(model).simulate(1.0, saveat=[0.05, 0.15, 0.25, 0.45, 1.0])
-    np.testing.assert_allclose(solution["load.i"], [2.0, 0.0, 2.0, 0.0, 0.0])
-
-
-def test_heat_port_of_a_transistor_that_depends_on_temperature() -> None:
-    """`useTemperatureDependency` alone gives the port; the heat through it is the power lost."""
-    model = assemble(
-        "drive.p - mos.G", "supply.p - mos.D", "drive.n - supply.n - mos.S - mos.B - ground.p",
-        "mos.heatPort - hot.port", drive=electrical.ConstantVoltage(V=3.0), supply=electrical.ConstantVoltage(V=5.0),
-        mos=electrical.NMOS(useTemperatureDependency=True), ground=electrical.Ground(),
-        hot=thermal.FixedTemperature(T=350.0),
-    )  # fmt: skip
-    solution = ac.compile(model).simulate(1.0, saveat=[1.0])
-    np.testing.assert_allclose(solution["hot.port.Q_flow"], solution["mos.D.i"] * 5.0, rtol=1e-8)

@@ -202,6 +202,8 @@ class VariableCapacitor(OnePort):
     """
 
     C: Input = Input(unit="F", doc="capacitance")
+    UIC: bool = False
+    IC: Parameter = Parameter(0.0, unit="V", doc="voltage at the start, with UIC")
     Cmin: Parameter = Parameter(2.220446049250313e-16, unit="F", doc="lower bound of the capacitance")
     Q: Variable = Variable(unit="C", start=0.0, doc="charge")
 
@@ -209,6 +211,11 @@ class VariableCapacitor(OnePort):
         yield from super().equations()
         yield self.Q == ac.max(self.C, self.Cmin) * self.v
         yield der(self.Q) == self.i
+
+    def initial_equations(self) -> Equations:
+        yield from super().initial_equations()
+        if self.UIC:
+            yield self.v == self.IC
 
 
 class VariableInductor(OnePort):
@@ -224,6 +231,8 @@ class VariableInductor(OnePort):
     """
 
     L: Input = Input(unit="H", doc="inductance")
+    UIC: bool = False
+    IC: Parameter = Parameter(0.0, unit="A", doc="current at the start, with UIC")
     Lmin: Parameter = Parameter(2.220446049250313e-16, unit="H", doc="lower bound of the inductance")
     Psi: Variable = Variable(unit="Wb", start=0.0, doc="flux")
 
@@ -231,6 +240,11 @@ class VariableInductor(OnePort):
         yield from super().equations()
         yield self.Psi == ac.max(self.L, self.Lmin) * self.i
         yield der(self.Psi) == self.v
+
+    def initial_equations(self) -> Equations:
+        yield from super().initial_equations()
+        if self.UIC:
+            yield self.i == self.IC
 
 
 class Potentiometer(ConditionalHeatPort):

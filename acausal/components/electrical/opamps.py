@@ -195,8 +195,23 @@ class IdealizedOpAmpLimited(OpAmpLimited):
     >>> close(run(model)["load.v"][-1], 2.0, 1e-3)
     True
 
+    `strict` is there for models written in Modelica, and changes nothing: the limits are kept in both cases, and their
+    times located. So is `homotopyType`, with its default only: at the start nothing is made linear here.
+
     Source: Modelica.Electrical.Analog.Ideal.IdealizedOpAmpLimited (named ...Limted in earlier versions).
     """
+
+    strict: bool = True
+    homotopyType: str = "NoHomotopy"
+
+    def equations(self) -> Equations:
+        if self.homotopyType != "NoHomotopy":
+            raise ac.DeclarationError(
+                f"`homotopyType={self.homotopyType!r}`: there is no homotopy at the start here. Leave it at "
+                "\"NoHomotopy\" and give start values that belong to the solution meant, such as "
+                "`v_out=start(15.0), v_int=start(15.0)`."
+            )
+        yield from super().equations()
 
 
 IdealizedOpAmpLimted = IdealizedOpAmpLimited

@@ -55,9 +55,11 @@ class Diode(ConditionalHeatPort, OnePort):
     TNOM: Parameter = Parameter(300.15, unit="K", doc="temperature at which the parameters were measured")
     XTI: Parameter = Parameter(3.0, unit="1", doc="temperature exponent of the saturation current")
     k_q: Parameter = Parameter(BOLTZMANN / CHARGE, unit="V/K", doc="Boltzmann constant over the elementary charge")
+    vt_t: Variable = Variable(unit="V", doc="voltage equivalent of the device's temperature")
 
     def equations(self) -> Equations:
         yield from super().equations()
+        yield self.vt_t == (self.k_q * self.T_heatPort if self.useTemperatureDependency else self.Vt)
         if self.useTemperatureDependency:
             ratio, thermal = self.T_heatPort / self.TNOM, self.N * self.k_q * self.T_heatPort
             growth = ratio ** (self.XTI / self.N) * exp((ratio - 1) * self.EG / thermal)
@@ -86,6 +88,7 @@ class HeatingDiode(Diode):
 class Diode2(ConditionalHeatPort, OnePort):
     """Diode with series resistance, breakdown and a forward voltage from which on it is linear.
 
+    The thermal voltage is `Vt`, ``k T/q`` if not given; with `useHeatPort` it follows the temperature of the port.
     ``id = Ids (exp(vd/(N Vt)) - 1)`` below ``Vf + N Vt`` and its tangent above; for ``vd < -Bv/2`` the breakdown
     ``-Ids (exp(-(vd + Bv)/(N Vt)) + 1 - 2 exp(-Bv/(2 N Vt)))``; ``v = vd + Rs id``, ``i = id + Gp v``.
 
@@ -93,7 +96,7 @@ class Diode2(ConditionalHeatPort, OnePort):
     ...                  source=RampVoltage(V=1.0, offset=-0.5, duration=1.0))
     >>> diode = run(model, at=[0.0, 1.0])
     >>> vd, id = np.array(diode["diode.vd"]), np.array(diode["diode.id"])
-    >>> close(id, 1e-13 * (np.exp(vd / 0.025) - 1)) and close(vd + 16 * id, [-0.5, 0.5])
+    >>> close(id, 1e-13 * (np.exp(vd / (8.617333e-5 * 293.15)) - 1)) and close(vd + 16 * id, [-0.5, 0.5])
     True
 
     Source: Modelica.Electrical.Analog.Semiconductors.Diode2.
@@ -102,7 +105,8 @@ class Diode2(ConditionalHeatPort, OnePort):
     Vf: Parameter = Parameter(0.7, unit="V", doc="forward voltage")
     Ids: Parameter = Parameter(1e-13, unit="A", doc="saturation current")
     Rs: Parameter = Parameter(16.0, unit="ohm", doc="series resistance")
-    Vt: Parameter = Parameter(0.025, unit="V", doc="thermal voltage")
+    k_q: Parameter = Parameter(BOLTZMANN / CHARGE, unit="V/K", doc="Boltzmann constant over the elementary charge")
+    Vt: Parameter = Parameter(k_q * ConditionalHeatPort.T, unit="V", doc="thermal voltage without a heat port")
     N: Parameter = Parameter(1.0, unit="1", doc="emission coefficient")
     Bv: Parameter = Parameter(100.0, unit="V", doc="breakdown voltage")
     Gp: Parameter = Parameter(1e-6, unit="S", doc="parallel conductance")
@@ -111,7 +115,7 @@ class Diode2(ConditionalHeatPort, OnePort):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        thermal = self.N * self.Vt
+        thermal = self.N * (self.k_q * self.T_heatPort if self.useHeatPort else self.Vt)
         top = self.Vf + thermal
         forward = self.Ids * (exlin(minimum(self.vd, top) / thermal, 1e300) - 1)
         forward = forward + maximum(self.vd - top, 0.0) * self.Ids * exp(top / thermal) / thermal

@@ -34,12 +34,15 @@ class PartialTemperatureDependent(ConditionalHeatPort, partial=True):
 class PartialBipolar(PartialTemperatureDependent, partial=True):
     """Bipolar transistor after Ebers and Moll, with Early effect, junction and diffusion capacitances.
 
+    With `UIC` the voltage from collector to substrate begins at `IC`.
+
     Source: Modelica.Electrical.Analog.Semiconductors.NPN; Vlach and Singhal, Computer Methods for Circuit Analysis and
     Design (1983), chapter 17.
     """
 
     polarity: int = 1
     useSubstrate: bool = False
+    UIC: bool = False
     C: Pin = Pin()
     B: Pin = Pin()
     E: Pin = Pin()
@@ -68,7 +71,10 @@ class PartialBipolar(PartialTemperatureDependent, partial=True):
     EG: Parameter = Parameter(1.11, unit="V", doc="energy gap, over the elementary charge")
     NF: Parameter = Parameter(1.0, unit="1", doc="forward emission coefficient")
     NR: Parameter = Parameter(1.0, unit="1", doc="reverse emission coefficient")
+    IC: Parameter = Parameter(0.0, unit="V", doc="voltage from collector to substrate at the start, with UIC")
     k_q: Parameter = Parameter(BOLTZMANN / CHARGE, unit="V/K", doc="Boltzmann constant over the elementary charge")
+    vcs: Variable = Variable(unit="V", doc="voltage from collector to substrate")
+    vt_t: Variable = Variable(unit="V", doc="voltage equivalent of the device's temperature")
     ibc: Variable = Variable(unit="A", nominal=1e-3, doc="current of the base-collector diode")
     ibe: Variable = Variable(unit="A", nominal=1e-3, doc="current of the base-emitter diode")
     cbc: Variable = Variable(unit="F", nominal=1e-12, doc="capacitance between base and collector")
@@ -88,7 +94,8 @@ class PartialBipolar(PartialTemperatureDependent, partial=True):
             beta_r, beta_f = self.Br * ratio**self.XTB, self.Bf * ratio**self.XTB
         over_c, over_e = self.NR * thermal, self.NF * thermal
         exp_c, exp_e = exlin2(vbc / over_c, self.EMin, self.EMax), exlin2(vbe / over_e, self.EMin, self.EMax)
-        substrate = self.S.v if self.useSubstrate else 0.0
+        yield self.vt_t == thermal
+        yield self.vcs == self.C.v - (self.S.v if self.useSubstrate else 0.0)
         yield self.qbk == 1 - vbc * self.Vak
         yield self.ibc == saturation * (exp_c - 1) + vbc * self.Gbc
         yield self.ibe == saturation * (exp_e - 1) + vbe * self.Gbe
@@ -96,7 +103,7 @@ class PartialBipolar(PartialTemperatureDependent, partial=True):
         cbe = self.Tauf * saturation / over_e * exp_e + self.Cje * powlin(vbe / self.Phie, self.Me)
         yield self.cbc == cbc
         yield self.cbe == cbe
-        yield self.iS == -self.Ccs * der(self.C.v - substrate)
+        yield self.iS == -self.Ccs * der(self.vcs)
         # with the expressions in full: where all times and capacitances are zero, they take the derivatives out
         charge_c, charge_e = cbc * der(vbc), cbe * der(vbe)
         transport = (self.ibe - self.ibc) * self.qbk
@@ -108,6 +115,11 @@ class PartialBipolar(PartialTemperatureDependent, partial=True):
         yield self.LossPower == (
             vbc * self.ibc / beta_r + vbe * self.ibe / beta_f + s * transport * (self.C.v - self.E.v)
         )
+
+    def initial_equations(self) -> Equations:
+        yield from super().initial_equations()
+        if self.UIC:
+            yield self.vcs == self.IC
 
 
 class NPN(PartialBipolar):
