@@ -11,6 +11,7 @@ from ..symbolic.expr import Expr
 from .declarations import Declaration, Kind, Start, Structural
 from .fields import Array, Shared, StructuralReference
 from .instance import Instance, call_site, field_names
+from .unknown_parameters import declared_class
 from .vectors import Quantities
 
 
@@ -57,7 +58,8 @@ def _checked_quantity(cls: type[Instance], declaration: Declaration, value: Any)
         if number is None:
             raise DeclarationError(
                 f"`{cls.__name__}({name}={value!r})`: a parameter takes a number or an expression of parameters of the "
-                f"class body it stands in, not `{type(value).__name__}` {call_site()}"
+                f"class body it stands in, or `start(guess, fixed=False)` if the initialization is to find it, not "
+                f"`{type(value).__name__}` {call_site()}"
             )
         check_bounds(f"{cls.__name__}.{name}", declaration, number)
         return value
@@ -153,7 +155,7 @@ def constraint_of(cls: type[Instance], name: str) -> type[Instance]:
         annotation = arguments[0]
     if isinstance(annotation, type) and issubclass(annotation, Instance):
         return annotation
-    return type(element)._generic or type(element)
+    return type(element)._generic or declared_class(type(element))
 
 
 def _evaluate_annotation(cls: type[Instance], text: str) -> Any:

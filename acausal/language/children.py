@@ -11,6 +11,7 @@ from .declarations import Start, Structural
 from .fields import Array, Shared, StructuralReference, view
 from .instance import Instance, field_names, record
 from .sizes import sized
+from .unknown_parameters import declared_class, with_unknowns
 
 
 class Child:
@@ -128,14 +129,14 @@ def merged(default: Any, given: Any) -> Any:
         return combined(default, given)
     if not isinstance(default, Instance) or not isinstance(given, Instance):
         return given
-    cls = sized(type(given), {**default.__dict__["_mods"], **given.__dict__["_mods"]})
+    cls = sized(declared_class(type(given)), {**default.__dict__["_mods"], **given.__dict__["_mods"]})
     names = set(field_names(cls))
     inherited = {k: v for k, v in default.__dict__["_mods"].items() if k in names}
     mods = {**inherited, **given.__dict__["_mods"]}
     for key, value in given.__dict__["_mods"].items():
         if key in inherited:
             mods[key] = merged(inherited[key], value)
-    return record(cls, mods)
+    return record(with_unknowns(cls, mods), mods)
 
 
 def combined(default: Start, given: Start) -> Start:

@@ -14,6 +14,7 @@ from .children import present
 from .collecting import collect
 from .instance import Instance, call_site, field_names, path_of, record
 from .sizes import sized
+from .unknown_parameters import declared_class, with_unknowns
 from .vectors import VectorEquation
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ class Component(Instance):
 
     def __init__(self, **modifications: Any) -> None:
         # modifications are checked one by one below; the class body gives the type checker their names and types
-        cls = _fitting(type(self), {}, modifications)
+        cls = fitting_class(type(self), {}, modifications)
         if cls is not type(self):
             object.__setattr__(self, "__class__", cls)
         modifications = by_element(cls, modifications)
@@ -129,17 +130,19 @@ def _recorded(cls: type[Component], name: str, function: Any) -> Any:
     return run
 
 
-def _fitting(cls: type[C], old: Mapping[str, Any], new: Mapping[str, Any]) -> type[C]:
-    """`cls` with vectors of the sizes that modifications ask for, the `new` ones of which are to be checked."""
-    if not cls._sizes:
-        return cls
-    return sized(cls, {**old, **{k: checked(cls, k, v) for k, v in new.items() if k in cls._structural}})
+def fitting_class(cls: type[C], old: Mapping[str, Any], new: Mapping[str, Any]) -> type[C]:
+    """The class that modifications ask for, by sizes of vectors and unknown parameters; the `new` are unchecked."""
+    fitting = declared_class(cls)
+    if fitting._sizes:
+        structural = {k: checked(fitting, k, v) for k, v in new.items() if k in fitting._structural}
+        fitting = sized(fitting, {**old, **structural})
+    return with_unknowns(fitting, {**old, **new})
 
 
 def with_modifications(component: C, mods: Mapping[str, Any]) -> C:
     """A copy of `component` with modifications added (checked)."""
     old = component.__dict__["_mods"]
-    cls = _fitting(type(component), old, mods)
+    cls = fitting_class(type(component), old, mods)
     new = {k: checked(cls, k, v) for k, v in by_element(cls, mods).items()}
     kept = old if cls is type(component) else {k: v for k, v in old.items() if k in field_names(cls)}
     together = {**kept, **new}

@@ -8,7 +8,7 @@ from typing import Any, TypeVar, cast
 from ..errors import DeclarationError, nearest
 from .checking import by_element, checked
 from .children import effective_child, merged
-from .component import Component, with_modifications
+from .component import Component, fitting_class, with_modifications
 from .declarations import Value
 from .fields import Array, Shared
 from .instance import call_site, record
@@ -54,6 +54,7 @@ def _modify_one(given: C, effective: Component, parts: list[str], value: Any, pa
     cls = type(effective)
     if len(parts) == 1:
         old = given.__dict__["_mods"]
+        cls = fitting_class(cls, old, {head: value})
         changed = {name: checked(cls, name, one) for name, one in by_element(cls, {head: value}).items()}
         return with_modifications(given, {k: merged(old[k], v) if k in old else v for k, v in changed.items()})
     if head not in cls._children:

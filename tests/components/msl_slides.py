@@ -175,3 +175,14 @@ def heat_losses() -> Component:
         springDamper1=translational.SpringDamper(c=1e4, d=1e3, s_rel=start(0.0, fixed=True), useHeatPort=True),
         convection=thermal.Convection(), const=blocks.Constant(k=20.0), TAmbient=thermal.FixedTemperature(T=298.15),
     )  # fmt: skip
+
+
+def eddy_current_brake() -> Component:
+    """Translational.Examples.EddyCurrentBrake of version 4.0, whose excitation is constant."""
+    return assemble(
+        "eddyCurrentForce.flange - mass.flange_a", "eddyCurrentForce.heatPort - heatCapacitor.port",
+        eddyCurrentForce=translational.EddyCurrentForce(f_nominal=100.0, v_nominal=10.0, useHeatPort=True, TRef=293.15,
+            alpha20=3.92e-3),
+        mass=translational.Mass(m=1.0, s=start(0.0, fixed=True), v=start(20.0, fixed=True)),
+        heatCapacitor=thermal.HeatCapacitor(C=1.0, T=start(293.15, fixed=True)),
+    )  # fmt: skip
