@@ -72,7 +72,7 @@ class Check:
         options = {**run.options, "rtol": RTOL}
         first = run.system.simulate(t1, **{**options, "saveat": np.array([0.0, t1])})
         t1 = float(first.t[-1])  # a model may end its run
-        spans = _spans([0.0, *(event.t for event in first.events if event.t < t1), t1], CLOSE * t1)
+        spans = _spans([0.0, *(event.t for event in first.events), t1], CLOSE * t1)
         times = np.concatenate([a + (b - a) * NODES for a, b in spans])
         solution = run.system.simulate(t1, **{**options, "saveat": times})
         values = np.asarray(solution._values(np.arange(self.equations.flat.n_total)), float).T
