@@ -27,7 +27,7 @@ TRUST = 4.0
 FAR = 10.0
 """A condition is out of reach if it is so many times its variation away from its switch."""
 NARROWEST = 1e-6
-"""Intervals shorter than this part of the stretch are not halved."""
+"""Intervals are halved to this part of the stretch; a rest that is shorter is taken along with what is before it."""
 ROUNDING = 1e-13
 
 
@@ -58,7 +58,7 @@ class Scan:
             times[-1] = end if last else times[-1]
             values = np.array([start, *(self.beyond(t) for t in times[1:].tolist())])
             peak = self._peak(here, span, values)
-            if peak is None and span > narrowest:
+            if peak is None and span > 2.0 * narrowest:
                 width = 0.5 * span
                 continue
             on = self.switched(values).any(axis=1)
@@ -67,7 +67,7 @@ class Scan:
                 top = here + peak * span
                 if self.switched(self.beyond(top)).any():
                     return float(times[np.searchsorted(times, top) - 1]), top
-                if span > narrowest:
+                if span > 2.0 * narrowest:
                     width = 0.5 * span
                     continue
             if seen < len(LOOKS):

@@ -73,7 +73,7 @@ class BooleanPulse(PartialBooleanSource):
     width: Parameter = Parameter(50.0, min=0.0, max=100.0, doc="width in per cent of the period")
     period: Parameter = Parameter(1.0, unit="s", min=1e-60, doc="time of one period")
     startTime: Parameter = Parameter(0.0, unit="s", doc="time of the first pulse")
-    pulseStart: Discrete = Discrete(unit="s", start=-1e300, doc="time of the beginning of the last pulse")
+    pulseStart: Discrete = Discrete(unit="s", start=startTime, doc="time of the beginning of the last pulse")
 
     def equations(self) -> Equations:
         yield from super().equations()

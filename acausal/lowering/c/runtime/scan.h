@@ -111,7 +111,7 @@ static double ac_first_switch(ac_work *w, double t, double h, ac_curve curve, co
         const double span = last ? 1.0 - from : width;
         for (int i = 1; i < AC_LOOKS - last; i++) ac_at(w, t, h, curve, data, from + ac_look[i] * span, w->scan[i]);
         if (last) memcpy(w->scan[AC_LOOKS - 1], w->g2, sizeof w->g2);
-        if (!ac_resolved(w, t, h, curve, data, from, span, &peak) && span > AC_NARROWEST) {
+        if (!ac_resolved(w, t, h, curve, data, from, span, &peak) && span > 2.0 * AC_NARROWEST) {
             width = 0.5 * span;
             continue;
         }
@@ -124,7 +124,7 @@ static double ac_first_switch(ac_work *w, double t, double h, ac_curve curve, co
                 while (ac_look[before + 1] < peak) before++;
                 return ac_narrow(w, t, h, curve, data, from + ac_look[before] * span, from + peak * span);
             }
-            if (span > AC_NARROWEST) {
+            if (span > 2.0 * AC_NARROWEST) {
                 width = 0.5 * span;
                 continue;
             }
