@@ -26,7 +26,8 @@ SPREAD = 8
 # integrals of the derivatives, are checked nevertheless.
 NOT_INTEGRATED = {
     "hydraulic.cylinders.Chamber", "multibody.free_joints.RevolutePlanarLoopConstraint", "planar.joints.Revolute",
-    "planar.sensors.AbsoluteVelocity", "planar.wheels.IdealRolling",
+    "planar.sensors.AbsoluteVelocity", "planar.wheels.IdealRolling", "planar.sensors.AbsoluteAcceleration",
+    "planar.gears.RigidNoLossExternal", "planar.gears.RigidNoLossInternal", "planar.wheels.DryFrictionBasedRolling",
 }  # fmt: skip
 # The current of a conducting ideal diode (1e-5 ohm) is a difference of potentials there, which are right to ten digits.
 # In the equations without those of the diodes it is another difference, and right.

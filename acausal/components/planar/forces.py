@@ -1,11 +1,11 @@
-"""Forces between frames, and on one."""
+"""Forces along the line between two frames."""
 
 from __future__ import annotations
 
-from acausal import Component, Equations, Input, Parameter, Vector, conditional, vector
+from acausal import Equations, Parameter, conditional, vector
 
 from .. import translational
-from .interfaces import Frame, PartialCompliant, PartialLineForce
+from .interfaces import PartialCompliant, PartialLineForce
 
 
 class Spring(PartialLineForce):
@@ -100,26 +100,3 @@ class LineForce(PartialLineForce):
             yield vector(self.frame_a.fx, self.frame_a.fy) == -self.e * self.flange_a.f
         else:
             yield from super().reaction()
-
-
-class WorldForce(Component):
-    """Force in x and y and torque on a frame, the signals `force`, resolved in the world frame.
-
-    >>> class Push(WorldForce):
-    ...     def equations(self):
-    ...         yield from super().equations()
-    ...         yield self.force == (0.0, 5.0, 0.0)
-    >>> model = assemble("wall.frame - rod.frame_a", "rod.frame_b - push.frame_b", wall=Fixed(), push=Push(),
-    ...                  rod=FixedTranslation(r=(2.0, 0.0)))
-    >>> run(model)["wall.frame.t"][-1]  # what the rod does to the wall
-    10.0
-
-    Source: PlanarMechanics.Sources.WorldForce.
-    """
-
-    frame_b: Frame = Frame()
-    force: Vector = Vector(Input(doc="forces in x and y [N], and torque [N.m]"))
-
-    def equations(self) -> Equations:
-        yield from super().equations()
-        yield vector(self.frame_b.fx, self.frame_b.fy, self.frame_b.t) == -self.force

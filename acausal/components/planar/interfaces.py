@@ -5,12 +5,14 @@ from __future__ import annotations
 from acausal import (
     Component,
     Connector,
+    DeclarationError,
     Equations,
     Flow,
     Parameter,
     Potential,
     Variable,
     Vector,
+    conditional,
     cos,
     der,
     noevent,
@@ -40,6 +42,12 @@ def resolve1(frame: Frame, r: Vector) -> Vector:
     """A vector `r` of a frame, in the world frame."""
     c, s = cos(frame.phi), sin(frame.phi)
     return vector(c * r[0] - s * r[1], s * r[0] + c * r[1])
+
+
+def resolve2(frame: Frame, r: Vector) -> Vector:
+    """A vector `r` of the world frame, in a frame."""
+    c, s = cos(frame.phi), sin(frame.phi)
+    return vector(c * r[0] + s * r[1], c * r[1] - s * r[0])
 
 
 def between(frame_a: Frame, frame_b: Frame) -> Vector:
@@ -85,13 +93,14 @@ class PartialTwoFrames(Component, partial=True):
 
 
 class PartialMass(Component, partial=True):
-    """Mass at the frame's origin, ``frame_a.f + m g = m a``, ``v = dr/dt``, ``a = dv/dt``.
+    """Mass at the frame's origin, ``frame_a.f + m g = m a``, ``v = dr/dt``, ``a = dv/dt``; g with `enableGravity`.
 
     Source: PlanarMechanics.Parts.Body.
     """
 
     frame_a: Frame = Frame()
     planarWorld: PlanarWorld = outer(PlanarWorld())
+    enableGravity: bool = True
     m: Parameter = Parameter(1.0, unit="kg", min=0.0, doc="mass")
     r: Vector = Vector(Variable(unit="m", doc="position"), size=2)
     v: Vector = Vector(Variable(unit="m/s", doc="velocity"), size=2)
@@ -103,7 +112,9 @@ class PartialMass(Component, partial=True):
         yield self.r == (frame.x, frame.y)
         yield self.v == der(self.r)
         yield self.a == der(self.v)
-        yield self.a * self.m == vector(frame.fx, frame.fy) + self.planarWorld.constantGravity * self.m
+        force = vector(frame.fx, frame.fy)
+        weight = self.planarWorld.constantGravity * self.m
+        yield self.a * self.m == (force + weight if self.enableGravity else force)
 
 
 class PartialLineForce(PartialTwoFrames, partial=True):
@@ -147,30 +158,81 @@ class PartialCompliant(PartialLineForce, partial=True):
         yield self.v == der(self.s)
 
 
-class PartialAbsoluteSensor(Component, partial=True):
-    """Frame on which no force acts.
+def untouched(frame: Frame) -> Equations:
+    """Neither a force nor a torque acts on a frame."""
+    yield frame.fx == 0
+    yield frame.fy == 0
+    yield frame.t == 0
+
+
+class PartialResolved(Component, partial=True):
+    """Something whose vectors are resolved in a frame that `resolveInFrame` names.
+
+    ``world``, ``frame_a``, ``frame_b`` or ``frame_resolve``, as far as the component has these.
+
+    Source: the types ResolveInFrameA, ResolveInFrameB and ResolveInFrameAB of Modelica.Mechanics.MultiBody.Types.
+    """
+
+    resolveInFrame: str = "world"
+    frame_resolve: Frame = conditional(Frame(), "useFrameResolve")
+
+    @property
+    def useFrameResolve(self) -> bool:
+        """Whether vectors are resolved in a frame of its own."""
+        return self.resolveInFrame == "frame_resolve"
+
+    def to_world(self, v: Vector, given: str = "") -> Vector:
+        """A vector of the component's signals (resolved in the frame `given`), resolved in the world frame."""
+        frame = self.frame_of(given or self.resolveInFrame)
+        return v if frame is None else resolve1(frame, v)
+
+    def from_world(self, v: Vector, wanted: str = "") -> Vector:
+        """The other way."""
+        frame = self.frame_of(wanted or self.resolveInFrame)
+        return v if frame is None else resolve2(frame, v)
+
+    def frame_of(self, name: str) -> Frame | None:
+        """The frame of this name; None for the world.
+
+        Raises:
+            DeclarationError: the component has no such frame.
+        """
+        known = ["world", *(n for n in ("frame_a", "frame_b") if n in type(self)._children), "frame_resolve"]
+        if name not in known:
+            raise DeclarationError(
+                f"{type(self).__name__}: vectors are resolved in one of {', '.join(known)}, not in {name!r}"
+            )
+        return None if name == "world" else getattr(self, name)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        if self.useFrameResolve:
+            yield from untouched(self.frame_resolve)
+
+
+class PartialAbsoluteSensor(PartialResolved, partial=True):
+    """Measures at frame_a, without force and torque; resolved in frame_a by default.
 
     Source: PlanarMechanics.Sensors.Internal.PartialAbsoluteSensor.
     """
 
+    resolveInFrame: str = "frame_a"
     frame_a: Frame = Frame()
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.frame_a.fx == 0
-        yield self.frame_a.fy == 0
-        yield self.frame_a.t == 0
+        yield from untouched(self.frame_a)
 
 
-class PartialRelativeSensor(PartialTwoFrames, partial=True):
-    """Two frames on which no force acts.
+class PartialRelativeSensor(PartialTwoFrames, PartialResolved, partial=True):
+    """Measures between frame_a and frame_b, without forces and torques; resolved in frame_a by default.
 
     Source: PlanarMechanics.Sensors.Internal.PartialRelativeSensor.
     """
 
+    resolveInFrame: str = "frame_a"
+
     def equations(self) -> Equations:
         yield from super().equations()
         for frame in (self.frame_a, self.frame_b):
-            yield frame.fx == 0
-            yield frame.fy == 0
-            yield frame.t == 0
+            yield from untouched(frame)
