@@ -309,6 +309,16 @@ class EventIteration(ModeSearch):
         return best, slots
 
     # ---- start ------------------------------------------------------------------------------------
+    def _guess_modes(self, t0: float, p: Floats, starts: Floats) -> None:
+        """Put the modes that hold at the start values into p, where those say so; where not, 0 is the guess.
+
+        Where several modes are consistent, as in what switches by positive feedback, start values choose one of them.
+        """
+        guess = Point(t0, self.problem.start_sign * starts[self.problem.start_source], p)
+        for following in (False, True):
+            for piece, _ in self.hybrid.conditions(following=following):
+                p[piece.slots] = np.where(piece.values(guess)[0] < 0.0, 1.0, 0.0)
+
     def start(
         self, t0: float, p: Floats, starts: Floats, solve: Callable[[Floats], tuple[Floats, Floats]]
     ) -> tuple[Outcome, Floats]:
@@ -327,6 +337,7 @@ class EventIteration(ModeSearch):
             p[slots.initial] = 1.0
         for piece, ids, signs in left_starts(hybrid):
             p[piece.slots] = signs * problem.start_sign[ids] * np.nan_to_num(starts[problem.start_source[ids]])
+        self._guess_modes(t0, p, starts)
         self.schedule(t0, p)
         first, due = self.next_sample(t0, at=True)
         intervals = {slot: interval for _, interval, slot in self.due}

@@ -28,7 +28,7 @@ def test_unknown_start_of_an_amplifier() -> None:
 
 def test_homotopy_of_an_amplifier_is_refused() -> None:
     assert electrical.IdealizedOpAmpLimited(strict=False, homotopyType="NoHomotopy").strict is False
-    with pytest.raises(ac.DeclarationError, match=r"homotopyType='UpperLimit'.*give start values"):
+    with pytest.raises(ac.DeclarationError, match=r"homotopyType='UpperLimit'.*a start value beyond a limit"):
         ac.compile(electrical.IdealizedOpAmpLimited(homotopyType="UpperLimit"))
 
 

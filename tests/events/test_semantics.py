@@ -427,3 +427,21 @@ def test_a_fixed_start_of_a_discrete_is_what_it_was_before(engine: Any) -> None:
             assert_allclose(solution["y"], [then, then, 0.0])
     never = ac.compile(Latched(x=ac.start(1.0, fixed=True), y=ac.start(1.0, fixed=True))).simulate(0.5, engine=engine)
     assert_allclose(never["y"], 0.0)
+
+
+class Bistable(Component):
+    """``v = clip(10 v + 0.1 x, -1, 1)`` has three solutions at the start, one in each of its modes."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    v: Variable = Variable(start=0.0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == -self.x
+        u = 10 * self.v + 0.1 * self.x
+        yield self.v == where(u > 1, 1.0, where(u < -1, -1.0, u))
+
+
+@pytest.mark.parametrize(("guess", "found"), [(0.0, 0.0), (0.5, 1.0), (-0.5, -1.0)])
+def test_start_values_choose_one_of_several_modes(guess: float, found: float, engine: Any) -> None:
+    solution = ac.compile(Bistable(v=ac.start(guess))).simulate(1.0, saveat=[0.0, 1.0], engine=engine)
+    assert_allclose(solution["v"], [found, found], atol=1e-9)

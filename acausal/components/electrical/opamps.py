@@ -146,8 +146,8 @@ class OpAmpLimited(Component):
     Vps: Parameter = Parameter(15.0, unit="V", doc="positive supply voltage")
     Vns: Parameter = Parameter(-15.0, unit="V", doc="negative supply voltage")
     Tau: Parameter = Parameter(1e-5, unit="s", min=1e-30, doc="time constant of the output with useFirstOrder")
-    vps: Variable = Variable(unit="V", doc="positive supply voltage")
-    vns: Variable = Variable(unit="V", doc="negative supply voltage")
+    vps: Variable = Variable(unit="V", start=Vps, doc="positive supply voltage")
+    vns: Variable = Variable(unit="V", start=Vns, doc="negative supply voltage")
     v_in: Variable = Variable(unit="V", start=0.0, doc="input voltage")
     v_int: Variable = Variable(unit="V", start=0.0, doc="output voltage without limits")
     v_out: Variable = Variable(unit="V", doc="output voltage against ground")
@@ -208,8 +208,8 @@ class IdealizedOpAmpLimited(OpAmpLimited):
         if self.homotopyType != "NoHomotopy":
             raise ac.DeclarationError(
                 f"`homotopyType={self.homotopyType!r}`: there is no homotopy at the start here. Leave it at "
-                "\"NoHomotopy\" and give start values that belong to the solution meant, such as "
-                "`v_out=start(15.0), v_int=start(15.0)`."
+                '"NoHomotopy"; of several solutions at the start, a start value beyond a limit chooses the one there, '
+                "as in `v_int=start(30.0)`."
             )
         yield from super().equations()
 
