@@ -80,3 +80,21 @@ def test_heat_port_of_a_transistor_that_depends_on_temperature() -> None:
     )  # fmt: skip
     solution = ac.compile(model).simulate(1.0, saveat=[1.0])
     np.testing.assert_allclose(solution["hot.port.Q_flow"], solution["mos.D.i"] * 5.0, rtol=1e-8)
+
+
+def test_a_word_of_bits_passes_at_once_from_converter_to_converter() -> None:
+    """Electrical.Analog.Examples.AD_DA_conversion: what is converted back is what was sampled at the same trigger."""
+    model = assemble(
+        "source.p - adc.p - load.p", "source.n - adc.n - dac.n - ground.p", "dac.p - load.n",
+        "clock.y - adc.trig - dac.trig", *(f"adc.y[{k}] - dac.x[{k}]" for k in range(7)),
+        source=electrical.SineVoltage(V=5.0, f=10.0, offset=5.0), clock=blocks.BooleanPulse(width=1.0, period=1e-3),
+        adc=electrical.AD_Converter(N=7), dac=electrical.DA_Converter(N=7), load=electrical.Resistor(R=1.0),
+        ground=electrical.Ground(),
+    )  # fmt: skip
+    sampled = np.arange(1, 100) * 1e-3
+    solution = ac.compile(model).simulate(0.1, saveat=sampled + 0.5e-3, rtol=1e-9)
+    number = np.floor((5.0 + 5.0 * np.sin(2 * np.pi * 10.0 * sampled)) / 10.0 * 127 + 0.5)
+    np.testing.assert_allclose(solution["adc.z"], number)
+    np.testing.assert_allclose(solution["dac.vout"], number * 10.0 / 127)
+    bits = [np.asarray(solution[f"adc.y[{k + 1}]"]) for k in range(7)]
+    np.testing.assert_allclose(sum(2**k * bit for k, bit in enumerate(bits)), number)

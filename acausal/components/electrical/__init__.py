@@ -19,6 +19,8 @@ from .basic import VariableCapacitor as VariableCapacitor
 from .basic import VariableConductor as VariableConductor
 from .basic import VariableInductor as VariableInductor
 from .basic import VariableResistor as VariableResistor
+from .converters import AD_Converter as AD_Converter
+from .converters import DA_Converter as DA_Converter
 from .current_sources import ConstantCurrent as ConstantCurrent
 from .current_sources import CosineCurrent as CosineCurrent
 from .current_sources import ExponentialsCurrent as ExponentialsCurrent
@@ -45,6 +47,9 @@ from .interfaces import Pin as Pin
 from .interfaces import TwoPin as TwoPin
 from .interfaces import TwoPort as TwoPort
 from .interfaces import VoltageSource as VoltageSource
+from .lightning import LightningImpulse as LightningImpulse
+from .lightning import LightningImpulseCurrent as LightningImpulseCurrent
+from .lightning import LightningImpulseVoltage as LightningImpulseVoltage
 from .lines import OLine as OLine
 from .lines import PartialLine as PartialLine
 from .lines import ULine as ULine
@@ -56,6 +61,7 @@ from .opamps import IdealOpAmpLimited as IdealOpAmpLimited
 from .opamps import OpAmp as OpAmp
 from .opamps import OpAmpDetailed as OpAmpDetailed
 from .opamps import OpAmpLimited as OpAmpLimited
+from .power_supply import DCPowerSupply as DCPowerSupply
 from .semiconductors import Diode as Diode
 from .semiconductors import Diode2 as Diode2
 from .semiconductors import HeatingDiode as HeatingDiode
