@@ -67,10 +67,10 @@ class TriggeredTrapezoid(Component):
         on = true(self.u)
         end = self.offset + where(on, self.amplitude, 0.0)
         duration, way = where(on, self.rising, self.falling), where(on, self.amplitude, -self.amplitude)
-        at_once = ac.initial() | (duration <= 0) | (ac.abs(way) <= 0)
+        at_once = (duration <= 0) | (ac.abs(way) <= 0)
         rate = where(at_once, 0.0, way / where(at_once, 1.0, duration))
-        left = (end - pre(self.y)) / where(at_once, 1.0, rate)
-        new = {self.endValue: end, self.rate: rate, self.T: ac.time + where(at_once, 0.0, left)}
+        left = where(at_once | ac.initial(), 0.0, (end - pre(self.y)) / where(at_once, 1.0, rate))
+        new = {self.endValue: end, self.rate: rate, self.T: ac.time + left}
         yield when([ac.initial(), on, ~on], new)
         yield self.y == where(ac.time < self.T, self.endValue - (self.T - ac.time) * self.rate, self.endValue)
 
