@@ -3,6 +3,9 @@
 Every circuit needs a `Ground`. The current of a pin is positive into the component.
 """
 
+from .adaptors import GeneralCurrentToVoltageAdaptor as GeneralCurrentToVoltageAdaptor
+from .adaptors import GeneralVoltageToCurrentAdaptor as GeneralVoltageToCurrentAdaptor
+from .adaptors import PartialAdaptor as PartialAdaptor
 from .arcs import CloserWithArc as CloserWithArc
 from .arcs import ControlledCloserWithArc as ControlledCloserWithArc
 from .arcs import ControlledOpenerWithArc as ControlledOpenerWithArc

@@ -4,6 +4,8 @@ Temperatures are absolute [K], but in `celsius`; the heat flow of a port is posi
 """
 
 from . import celsius as celsius
+from .adaptors import GeneralHeatFlowToTemperatureAdaptor as GeneralHeatFlowToTemperatureAdaptor
+from .adaptors import GeneralTemperatureToHeatFlowAdaptor as GeneralTemperatureToHeatFlowAdaptor
 from .components import BodyRadiation as BodyRadiation
 from .components import Convection as Convection
 from .components import ConvectiveResistor as ConvectiveResistor
