@@ -8,7 +8,7 @@ import pytest
 
 import acausal as ac
 
-from . import msl_networks, msl_opamps, msl_switching
+from . import msl_networks, msl_opamps, msl_resonance, msl_switching
 from .tube import assert_within
 
 MODELS: dict[str, Callable[[], ac.Component]] = {
@@ -22,7 +22,10 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
     "Differentiator": msl_opamps.differentiator, "ControlCircuit": msl_opamps.control_circuit,
     "Multivibrator": msl_opamps.multivibrator, "SignalGenerator": msl_opamps.signal_generator,
     "CauerLowPassOPV": msl_networks.cauer_low_pass_opv, "DifferenceAmplifier": msl_networks.difference_amplifier,
-    "CauerLowPassSC": msl_networks.cauer_low_pass_sc,
+    "CauerLowPassSC": msl_networks.cauer_low_pass_sc, "ParallelResonance": msl_resonance.parallel_resonance,
+    "SeriesResonance": msl_resonance.series_resonance, "ResonanceCircuits": msl_resonance.resonance_circuits,
+    "ElectricalGenerationOfFMUs": msl_resonance.electrical_signals,
+    "ThermalGenerationOfFMUs": msl_resonance.thermal_signals,
 }  # fmt: skip
 
 
