@@ -53,14 +53,14 @@ def test_a_sensor_that_holds_no_temperature() -> None:
 def test_motor(engine: Any) -> None:
     """Thermal.HeatTransfer.Examples.Motor: two masses, linear between the changes of the load."""
     table = ((0.0, 100.0, 500.0), (360.0, 1000.0, 500.0), (600.0, 100.0, 500.0))
-    periodic: dict[str, Any] = {"table": table, "smoothness": "ConstantSegments", "extrapolation": "Periodic"}
     ambient, T_ref, alpha = 293.15, 368.15, 3.03e-3
     model = assemble(
-        "lossTable.y - windingLosses.Q_flow", "coreTable.y - coreLosses.Q_flow", "convectionConstant.y - convection.Gc",
+        "lossTable.y[0] - windingLosses.Q_flow", "lossTable.y[1] - coreLosses.Q_flow",
+        "convectionConstant.y - convection.Gc",
         "windingLosses.port - winding.port - winding2core.port_a - Twinding.port",
         "coreLosses.port - core.port - winding2core.port_b - convection.solid - Tcore.port",
         "convection.fluid - environment.port",
-        lossTable=blocks.CombiTimeTable(**periodic), coreTable=blocks.CombiTimeTable(**periodic, column=3),
+        lossTable=blocks.CombiTimeTable(table=table, smoothness="ConstantSegments", extrapolation="Periodic"),
         windingLosses=thermal.PrescribedHeatFlow(T_ref=T_ref, alpha=alpha), coreLosses=thermal.PrescribedHeatFlow(),
         winding=thermal.HeatCapacitor(C=2500.0, T=start(ambient, fixed=True)), Twinding=celsius.TemperatureSensor(),
         core=thermal.HeatCapacitor(C=25000.0, T=start(ambient, fixed=True)), Tcore=celsius.TemperatureSensor(),
