@@ -46,9 +46,22 @@ class AbstractLinearSolver(eqx.Module):
             What `solve` takes, and what is kept for the next step.
         """
 
+    def outrun(self, factors: Any, diagonal: Array, jacobian: Array, kept: Any = None) -> tuple[Array, Any]:
+        """Whether a mode grows faster than the step that `diagonal` belongs to can follow; not, where that is unknown.
+
+        Returns:
+            A boolean, and what is kept for the next step.
+        """
+        del factors, diagonal, jacobian
+        return jnp.asarray(False), kept
+
     @abc.abstractmethod
     def solve(self, factors: Any, b: Array) -> Array:
         """Solves `W x = b` with what `factor` returned; `b` and `x` have shape (n,)."""
+
+
+SMALL_STEP = 1e30
+"""Factor of the diagonal of W that makes a step so small that no mode can be seen in it."""
 
 
 class DenseLU(AbstractLinearSolver):
@@ -75,9 +88,37 @@ class DenseLU(AbstractLinearSolver):
         lu, _, permutation = jax.lax.linalg.lu(matrix * scale[:, None])
         return (lu, permutation, scale), kept
 
+    def init(self) -> Array:
+        """The sign of the determinant for small steps, which is not known yet."""
+        return jnp.asarray(0)
+
+    def outrun(self, factors: Any, diagonal: Array, jacobian: Array, kept: Any = None) -> tuple[Array, Any]:
+        """Beyond the pole of its stability function an implicit method takes growth for decay, and a solution stays at
+        an equilibrium that it has to leave. A real mode is there if the determinant of W has changed its sign, compared
+        with that for a small step, which is looked at again before anything is said. Modes in pairs are not seen.
+
+        Hairer and Wanner, Solving Ordinary Differential Equations II, IV.2.
+        """
+        sign, jacobian = _sign_of_determinant(factors), jax.lax.stop_gradient(jacobian)
+        reference = jnp.asarray(0) if kept is None else kept
+
+        def for_small_steps() -> Array:
+            return _sign_of_determinant(self.factor(SMALL_STEP * jax.lax.stop_gradient(diagonal), jacobian)[0])
+
+        reference = jax.lax.cond(sign == reference, lambda: reference, for_small_steps)
+        return sign != reference, reference
+
     def solve(self, factors: tuple[Array, Array, Array], b: Array) -> Array:
         lu, permutation, scale = factors
         x = (b * scale)[permutation][:, None]
         x = jax.lax.linalg.triangular_solve(lu, x, left_side=True, lower=True, unit_diagonal=True)
         x = jax.lax.linalg.triangular_solve(lu, x, left_side=True, lower=False)
         return x[:, 0]
+
+
+def _sign_of_determinant(factors: tuple[Array, Array, Array]) -> Array:
+    """1 or -1, from the diagonal of U and the order of the rows."""
+    lu, permutation, _ = factors
+    before = permutation[:, None] > permutation[None, :]
+    exchanged = jnp.sum(jnp.triu(before, 1)) + jnp.sum(jnp.diagonal(lu) < 0)
+    return 1 - 2 * (exchanged % 2)

@@ -16,6 +16,8 @@ from jaxtyping import PyTree
 from . import rodas5p_tableau as tableau
 from .linear_solvers import AbstractLinearSolver, DenseLU
 
+NOT_REFUSED = 1e-13
+"""Steps shorter than this, relative to the time, are as short as they can be."""
 _COUPLING = np.stack([tableau.A, tableau.C], axis=1)  # (stage, A or C, earlier stage)
 
 
@@ -92,7 +94,7 @@ class Rodas5P(AbstractAdaptiveSolver[Any]):
         n = sum(jnp.size(leaf) for leaf in jax.tree.leaves(y0))
         if self.mass is not None and jnp.shape(self.mass) != (n,):
             raise ValueError(f"`mass` is the diagonal, of shape ({n},) for this y0; got shape {jnp.shape(self.mass)}.")
-        return None if self.linear_solver is None else self.linear_solver.init()
+        return (DenseLU() if self.linear_solver is None else self.linear_solver).init()
 
     def func(self, terms: Any, t0: Any, y0: Any, args: Any) -> Any:
         return terms.vf(t0, y0, args)
@@ -122,6 +124,8 @@ class Rodas5P(AbstractAdaptiveSolver[Any]):
         rate = h * rate
         mass = jnp.ones_like(y) if self.mass is None else jnp.asarray(self.mass, y.dtype)
         factors, kept = linear_solver.factor(mass / tableau.GAMMA, jacobian, solver_state)
+        outrun, kept = linear_solver.outrun(factors, mass / tableau.GAMMA, jacobian, kept)
+        outrun &= jnp.abs(h) > NOT_REFUSED * jnp.abs(t0)
 
         def stage(u: Array, row: tuple[Array, Array, Array, Array]) -> tuple[Array, None]:
             i, coupling, node, weight = row
@@ -139,7 +143,8 @@ class Rodas5P(AbstractAdaptiveSolver[Any]):
         if self.project is not None:
             y1 = self.project(_real_time(terms, t1), y1, args)
         dense_info = {"y0": y0, "y1": y1, "v": jax.vmap(unflatten)(increments[1:])}
-        return y1, unflatten(u[7]), dense_info, kept, RESULTS.successful
+        error = jnp.where(outrun, jnp.inf, u[7])  # so the step is refused
+        return y1, unflatten(error), dense_info, kept, RESULTS.successful
 
     def _given_jacobian(
         self, field: Any, t0: Array, y: Array, unflatten: Any, terms: Any, args: Any, control: Any

@@ -105,8 +105,14 @@ class SparseDense(AbstractLinearSolver):
         n = self.pattern.n
         return value, rate, jnp.zeros((n, n), y.dtype).at[self.pattern.rows, self.pattern.columns].set(values)
 
+    def init(self) -> Array:
+        return DenseLU().init()
+
     def factor(self, diagonal: Array, jacobian: Array, kept: Any = None) -> tuple[Any, Any]:
         return DenseLU().factor(diagonal, jacobian, kept)
+
+    def outrun(self, factors: Any, diagonal: Array, jacobian: Array, kept: Any = None) -> tuple[Array, Any]:
+        return DenseLU().outrun(factors, diagonal, jacobian, kept)
 
     def solve(self, factors: Any, b: Array) -> Array:
         return DenseLU().solve(factors, b)
