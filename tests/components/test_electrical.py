@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import acausal as ac
+from acausal import Equations, Parameter, start, where
 from acausal.components import blocks, electrical, thermal
 from acausal.components.examples import assemble
 
@@ -98,3 +102,98 @@ def test_a_word_of_bits_passes_at_once_from_converter_to_converter() -> None:
     np.testing.assert_allclose(solution["dac.vout"], number * 10.0 / 127)
     bits = [np.asarray(solution[f"adc.y[{k + 1}]"]) for k in range(7)]
     np.testing.assert_allclose(sum(2**k * bit for k, bit in enumerate(bits)), number)
+
+
+def test_matrix_and_triangle_of_coupled_inductors() -> None:
+    """As in Modelica, L may be the upper triangle, row by row."""
+    matrix = electrical.M_Transformer(L=((1.0, 0.1, 0.2), (0.1, 2.0, 0.3), (0.2, 0.3, 3.0)))
+    triangle = electrical.M_Transformer(L=(1.0, 0.1, 0.2, 2.0, 0.3, 3.0))
+    assert list(map(tuple, triangle.matrix)) == matrix.matrix and triangle.N == 3
+    with pytest.raises(ac.DeclarationError, match=r"symmetric matrix, not"):
+        ac.compile(electrical.M_Transformer(L=((1.0, 0.1), (0.2, 2.0))))
+    with pytest.raises(ac.DeclarationError, match=r"upper triangle, of 1, 3, 6, 10"):
+        ac.compile(electrical.M_Transformer(L=(1.0, 0.1)))
+
+
+def test_present_inductance_and_flux() -> None:
+    model = assemble(
+        "ramp.p - coil.p - trafo.p1", "ramp.n - coil.n - trafo.n1 - trafo.n2 - load.n - ground.p", "trafo.p2 - load.p",
+        ramp=electrical.ConstantVoltage(V=2.0), coil=electrical.SaturatingInductor(), ground=electrical.Ground(),
+        trafo=electrical.IdealTransformer(n=2.0, considerMagnetization=True, Lm1=4.0), load=electrical.Resistor(R=1.0),
+    )  # fmt: skip
+    solution = ac.compile(model).simulate(2.0, saveat=[0.0, 1e-6, 1.0, 2.0], rtol=1e-10)
+    i, psi = np.asarray(solution["coil.i"]), np.asarray(solution["coil.Psi"])
+    np.testing.assert_allclose(solution["coil.Lact"], [2.0, *(psi[1:] / i[1:])], rtol=1e-7)
+    np.testing.assert_allclose(solution["trafo.psim1"], 2.0 * np.asarray(solution.t), rtol=1e-7, atol=1e-12)
+
+
+class ChuaResistor(electrical.OnePort):
+    """Electrical.Analog.Examples.Utilities.NonlinearResistor."""
+
+    Ga: Parameter = Parameter(-0.757576, unit="S", doc="conductance in the inner range")
+    Gb: Parameter = Parameter(-0.409091, unit="S", doc="conductance in the outer ranges")
+    Ve: Parameter = Parameter(1.0, unit="V", doc="limit of the inner range")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        bend = (self.Ga - self.Gb) * self.Ve
+        outside = where(self.v > self.Ve, self.Gb * self.v + bend, self.Ga * self.v)
+        yield self.i == where(self.v < -self.Ve, self.Gb * self.v - bend, outside)
+
+
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+def test_chua_circuit(engine: Any) -> None:
+    """Electrical.Analog.Examples.ChuaCircuit for as long as its chaos lets two solvers agree."""
+    model = assemble(
+        "L.p - C2.p - G.p", "G.n - C1.p - Nr.p", "L.n - Ro.p", "Ro.n - C2.n - C1.n - Nr.n - Gnd.p",
+        L=electrical.Inductor(L=18.0, i=start(0.0, fixed=True)), Ro=electrical.Resistor(R=12.5e-3),
+        G=electrical.Conductor(G=0.565), C1=electrical.Capacitor(C=10.0, v=start(4.0, fixed=True)),
+        C2=electrical.Capacitor(C=100.0, v=start(0.0, fixed=True)), Nr=ChuaResistor(), Gnd=electrical.Ground(),
+    )  # fmt: skip
+
+    def slopes(_t: float, y: np.ndarray) -> list[float]:
+        i, v1, v2 = y
+        nonlinear = -0.409091 * v1 + (-0.757576 + 0.409091) / 2 * (abs(v1 + 1) - abs(v1 - 1))
+        return [(v2 - 12.5e-3 * i) / 18.0, (0.565 * (v2 - v1) - nonlinear) / 10.0, (0.565 * (v1 - v2) - i) / 100.0]
+
+    t = np.linspace(0.0, 2000.0, 41)
+    wanted = solve_ivp(slopes, (0.0, 2000.0), [0.0, 4.0, 0.0], t_eval=t, rtol=1e-11, atol=1e-12, max_step=1.0).y
+    solution = ac.compile(model).simulate(2000.0, saveat=t, rtol=1e-10, engine=engine)
+    for signal, values in zip(("L.i", "C1.v", "C2.v"), wanted, strict=True):
+        np.testing.assert_allclose(solution[signal], values, atol=1e-4)
+
+
+def test_compare_transformers() -> None:
+    """Electrical.Analog.Examples.CompareTransformers: both are the linear circuits that their equations say."""
+    w, n, V = 2 * np.pi * 10.0, 2.0, 0.1
+    L1s, Lm, L2s, R1, R2, load = 0.05 / w, 10.0 / w, 0.05 / w / n**2, 0.01, 0.01 / n**2, 1 / n**2
+    M = Lm / n
+    L1, L2 = L1s + M * n, L2s + M / n
+    wave = electrical.SineVoltage(V=V, phase=np.pi / 2, f=10.0, offset=V)
+    model = assemble(
+        "sineVoltage1.p - resistor11.p", "resistor11.n - basic.p1", "basic.p2 - resistor12.p", "resistor12.n - load1.p",
+        "sineVoltage1.n - basic.n1 - basic.n2 - load1.n - ground1.p", "sineVoltage2.p - resistor21.p",
+        "resistor21.n - inductor21.p", "inductor21.n - ideal.p1", "ideal.p2 - inductor22.p",
+        "inductor22.n - resistor22.p", "resistor22.n - load2.p",
+        "sineVoltage2.n - ideal.n1 - ideal.n2 - load2.n - ground2.p", sineVoltage1=wave, sineVoltage2=wave,
+        basic=electrical.Transformer(L1=L1, L2=L2, M=M, i1=start(0.0, fixed=True), i2=start(0.0, fixed=True)),
+        ideal=electrical.IdealTransformer(n=n, Lm1=Lm), inductor21=electrical.Inductor(L=L1s),
+        inductor22=electrical.Inductor(L=L2s, i=start(0.0, fixed=True)), resistor11=electrical.Resistor(R=R1),
+        resistor12=electrical.Resistor(R=R2), resistor21=electrical.Resistor(R=R1),
+        resistor22=electrical.Resistor(R=R2), load1=electrical.Resistor(R=load), load2=electrical.Resistor(R=load),
+        ground1=electrical.Ground(), ground2=electrical.Ground(),
+    )  # fmt: skip
+    inverse = np.linalg.inv([[L1, M], [M, L2]])
+
+    def slopes(t: float, y: np.ndarray) -> list[float]:
+        """Currents i1, i2 of the basic transformer, and that of the secondary side of the ideal one."""
+        v = V * np.cos(w * t) + V
+        basic = inverse @ [v - R1 * y[0], -(R2 + load) * y[1]]
+        ideal = (v / n - (R1 / n**2 + R2 + load) * y[2]) / (L1s / n**2 + L2s)
+        return [*basic, ideal]
+
+    t = np.linspace(0.0, 0.5, 51)
+    wanted = solve_ivp(slopes, (0.0, 0.5), [0.0, 0.0, 0.0], t_eval=t, rtol=1e-10, atol=1e-12, method="LSODA").y
+    solution = ac.compile(model).simulate(0.5, saveat=t, rtol=1e-9)
+    for signal, values in zip(("basic.i1", "basic.i2", "inductor22.i"), wanted, strict=True):
+        np.testing.assert_allclose(solution[signal], values, rtol=1e-6, atol=1e-7)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import acausal as ac
-from acausal import PI, Component, Equations, Expr, Input, Parameter, Variable, der
+from acausal import PI, Component, Equations, Expr, Input, Parameter, Variable, der, noevent, where
 
 from .interfaces import ConditionalHeatPort, OnePort, Pin
 
@@ -131,6 +131,7 @@ class SaturatingInductor(OnePort):
     Lzer: Parameter = Parameter(2 * Lnom, unit="H", doc="inductance near current 0")
     Linf: Parameter = Parameter(Lnom / 2, unit="H", doc="inductance at large currents")
     Psi: Variable = Variable(unit="Wb", start=0.0, doc="flux")
+    Lact: Variable = Variable(unit="H", doc="inductance at the present current, Psi/i")
     ratio: Variable = Variable(start=0.3, doc="Inom/Ipar")
 
     def equations(self) -> Equations:
@@ -141,6 +142,9 @@ class SaturatingInductor(OnePort):
         yield (self.Lnom - self.Linf) / span == self.ratio * (PI / 2 - ac.atan(self.ratio))
         yield self.Psi == self.Linf * self.i + span * current * ac.atan(self.i / current)
         yield der(self.Psi) == self.v
+        x = self.i / current
+        rest = noevent(where(ac.abs(x) < 1e-4, 1 - x**2 / 3, ac.atan(x) / x))  # atan(x)/x is 1 - x^2/3 + x^4/5 - ...
+        yield self.Lact == self.Linf + span * rest
 
 
 class VariableResistor(ConditionalHeatPort, OnePort):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from typing import cast
 
 from acausal import Array, Component, DeclarationError, Equations, Parameter, Variable, conditional, der
 
@@ -130,6 +132,7 @@ class IdealTransformer(TwoPort):
     n: Parameter = Parameter(1.0, unit="1", doc="turns ratio primary to secondary")
     Lm1: Parameter = Parameter(1.0, unit="H", doc="magnetization inductance seen from the primary side")
     im1: Variable = Variable(unit="A", start=0.0, doc="magnetization current seen from the primary side")
+    psim1: Variable = Variable(unit="Wb", doc="magnetization flux seen from the primary side, 0 without it")
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -137,8 +140,10 @@ class IdealTransformer(TwoPort):
         yield self.im1 == self.i1 + self.i2 / self.n
         if self.considerMagnetization:
             yield self.Lm1 * der(self.im1) == self.v1
+            yield self.psim1 == self.Lm1 * self.im1
         else:
             yield self.im1 == 0
+            yield self.psim1 == 0
 
 
 class Transformer(TwoPort):
@@ -180,6 +185,9 @@ class Winding(OnePort):
 class M_Transformer(Component):
     """Coupled inductors ``windings[k]``, ``v = L di/dt`` with a symmetric matrix `L` in henry.
 
+    `L` is the matrix, or its upper triangle row by row, ``(L11, L12, L13, L22, L23, L33)``; the number N of inductors
+    follows from it.
+
     >>> model = assemble("source.p - trafo.windings[0].p", "trafo.windings[1].p - load.p",
     ...                  "source.n - trafo.windings[0].n - trafo.windings[1].n - load.n - ground.p", ground=Ground(),
     ...                  source=ConstantVoltage(V=6.0), load=Resistor(R=1e6), trafo=M_Transformer(L=[[2, 3], [3, 8]]))
@@ -189,23 +197,45 @@ class M_Transformer(Component):
     Source: Modelica.Electrical.Analog.Basic.M_Transformer.
     """
 
-    L: Sequence[Sequence[float]] = ((1.0, 0.1), (0.1, 2.0))
+    L: Sequence[Sequence[float]] | Sequence[float] = ((1.0, 0.1), (0.1, 2.0))
     henry: Parameter = Parameter(1.0, unit="H", doc="unit of the matrix")
+
+    @property
+    def matrix(self) -> Sequence[Sequence[float]]:
+        """The inductances [H].
+
+        Raises:
+            DeclarationError: `L` is neither a symmetric matrix nor its upper triangle.
+        """
+        rows = list(self.L)
+        if all(isinstance(row, Sequence) for row in rows):
+            full = cast("list[Sequence[float]]", rows)
+            if any(len(row) != len(full) for row in full) or any(
+                full[j][k] != full[k][j] for j in range(len(full)) for k in range(j)
+            ):
+                raise DeclarationError(f"M_Transformer: L must be a symmetric matrix, not {self.L}")
+            return full
+        n = (math.isqrt(8 * len(rows) + 1) - 1) // 2
+        if n * (n + 1) != 2 * len(rows) or any(isinstance(value, Sequence) for value in rows):
+            raise DeclarationError(
+                f"M_Transformer: L must be a matrix or its upper triangle, of 1, 3, 6, 10, ... values, not {self.L}"
+            )
+        triangle = iter(cast("list[float]", rows))
+        upper = [[next(triangle) if k >= j else 0.0 for k in range(n)] for j in range(n)]
+        return [[upper[min(j, k)][max(j, k)] for k in range(n)] for j in range(n)]
 
     @property
     def N(self) -> int:
         """Number of inductors."""
-        return len(self.L)
+        return len(self.matrix)
 
     windings: Array[Winding] = Array(Winding(), "N")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        for row, line in enumerate(self.L):
-            if len(line) != self.N or any(line[k] != self.L[k][row] for k in range(self.N)):
-                raise DeclarationError(f"M_Transformer: L must be a symmetric matrix, not {self.L}")
-            voltages = [self.henry * line[k] * der(self.windings[k].i) for k in range(self.N)]
-            yield self.windings[row].v == sum(voltages[1:], voltages[0])
+        for winding, row in zip(self.windings, self.matrix, strict=True):
+            voltages = [self.henry * value * der(other.i) for value, other in zip(row, self.windings, strict=True)]
+            yield winding.v == sum(voltages[1:], voltages[0])
 
 
 class RotationalEMF(OnePort):
@@ -227,6 +257,7 @@ class RotationalEMF(OnePort):
     phi: Variable = Variable(unit="rad", doc="angle of the shaft relative to the support")
     w: Variable = Variable(unit="rad/s", doc="angular velocity of the shaft relative to the support")
     tau: Variable = Variable(unit="N*m", doc="torque of the flange")
+    tauElectrical: Variable = Variable(unit="N*m", doc="electrical torque, k i")
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -238,6 +269,7 @@ class RotationalEMF(OnePort):
         yield self.w == der(self.phi)
         yield self.v == self.k * self.w
         yield self.tau == -self.k * self.i
+        yield self.tauElectrical == -self.tau
         yield self.flange.tau == self.tau
 
 
@@ -260,6 +292,7 @@ class TranslationalEMF(OnePort):
     s: Variable = Variable(unit="m", doc="position of the flange relative to the support")
     vel: Variable = Variable(unit="m/s", doc="velocity of the flange relative to the support")
     f: Variable = Variable(unit="N", doc="force of the flange")
+    fElectrical: Variable = Variable(unit="N", doc="electrical force, k i")
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -271,4 +304,5 @@ class TranslationalEMF(OnePort):
         yield self.vel == der(self.s)
         yield self.v == self.k * self.vel
         yield self.f == -self.k * self.i
+        yield self.fElectrical == -self.f
         yield self.flange.f == self.f
