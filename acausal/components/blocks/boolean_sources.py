@@ -98,12 +98,14 @@ class BooleanTable(PartialBooleanSource):
     extrapolation: str = "HoldLastPoint"
     startTime: Parameter = Parameter(BEGINNING, unit="s", doc="false before")
     shiftTime: Parameter = Parameter(0.0, unit="s", doc="time of the table's zero")
+    timeScale: Parameter = Parameter(1.0, min=1e-30, doc="scale of the times")
 
     def equations(self) -> Equations:
         yield from super().equations()
         times, first = list(self.table), 1.0 if self.startValue else 0.0
         values = [first, *((first + i) % 2 for i in range(1, len(times) + 1))]
-        value = held([times[0] if times else 0.0, *times], values, self.extrapolation, ac.time - self.shiftTime)
+        t = (ac.time - self.shiftTime) / self.timeScale
+        value = held([times[0] if times else 0.0, *times], values, self.extrapolation, t)
         yield self.y == where(ac.time < self.startTime, 0.0, value)
 
 

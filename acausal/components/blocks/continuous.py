@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import acausal as ac
 from acausal import (
+    Discrete,
     Equations,
     Expr,
     Input,
@@ -94,6 +95,7 @@ class LimIntegrator(Integrator):
     limitsAtInit: bool = True
     outMax: Parameter = Parameter(1.0, doc="upper limit of the output")
     outMin: Parameter = Parameter(-outMax, doc="lower limit of the output")
+    begunInside: Discrete = Discrete(start=1.0, doc="whether the start is within the limits, without limitsAtInit")
 
     def rate(self) -> Expr:
         """Derivative of the output."""
@@ -113,7 +115,10 @@ class LimIntegrator(Integrator):
         if not self.limitsAtInit:
             some = 1e-3 * ac.abs(self.outMax - self.outMin)
             inside = (self.y >= self.outMin - some) & (self.y <= self.outMax + some)
-            yield assert_(~ac.initial() | inside, "the start of a LimIntegrator is not within its limits")
+            yield when(ac.initial(), {self.begunInside: where(inside, 1.0, 0.0)})
+            yield assert_(true(self.begunInside), "the start of a LimIntegrator is not within its limits")
+        else:
+            yield self.begunInside == 1.0
 
 
 class Der(SISO):

@@ -70,13 +70,15 @@ class IntegerTable(IntegerSO):
     extrapolation: str = "HoldLastPoint"
     startTime: Parameter = Parameter(BEGINNING, unit="s", doc="0 before")
     shiftTime: Parameter = Parameter(0.0, unit="s", doc="time of the table's zero")
+    timeScale: Parameter = Parameter(1.0, min=1e-30, doc="scale of the times")
 
     def equations(self) -> Equations:
         yield from super().equations()
         if not self.table or any(len(row) != 2 or row[1] % 1 for row in self.table):
             raise DeclarationError(f"IntegerTable: rows of a time and an integer, not {self.table}")
         times, values = [row[0] for row in self.table], [row[1] for row in self.table]
-        value = held([times[0], *times], [values[0], *values], self.extrapolation, ac.time - self.shiftTime)
+        t = (ac.time - self.shiftTime) / self.timeScale
+        value = held([times[0], *times], [values[0], *values], self.extrapolation, t)
         yield self.y == where(ac.time < self.startTime, 0.0, value)
 
 

@@ -1,0 +1,299 @@
+"""Signal blocks where their examples do not go: options, limits, errors, and other people's numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy import interpolate, signal
+
+import acausal as ac
+from acausal import Component
+from acausal.components import blocks
+from acausal.components.blocks import discrete, math_boolean, math_integer
+from acausal.components.examples import assemble
+
+
+def simulated(t: Any, *connections: str, **parts: Component) -> ac.Solution:
+    times = np.asarray(t, float)
+    return ac.compile(assemble(*connections, **parts)).simulate(float(times[-1]), saveat=times, rtol=1e-9)
+
+
+def along(block: Component, values: Any, output: str = "y") -> np.ndarray:
+    """Output of a block for an input that goes straight from the first to the last of the values."""
+    values = np.asarray(values, float)
+    ramp = blocks.Slope(slope=values[-1] - values[0], offset=values[0])
+    t = (values - values[0]) / (values[-1] - values[0])
+    return np.asarray(simulated(t, "ramp.y - block.u", ramp=ramp, block=block)[f"block.{output}"])
+
+
+# ---- logic ------------------------------------------------------------------------------------------
+@pytest.mark.parametrize(("name", "rule"), [
+    ("And", all), ("Or", any), ("Xor", lambda u: sum(u) == 1), ("Nand", lambda u: not all(u)),
+    ("Nor", lambda u: not any(u)),
+])  # fmt: skip
+def test_truth_tables(name: str, rule: Any) -> None:
+    """All combinations of three booleans, one after the other."""
+    pulses = {f"bit{k}": blocks.BooleanPulse(period=2.0 ** (k + 1), startTime=2.0**k) for k in range(3)}
+    joints = [f"bit{k}.y - gate.u[{k}]" for k in range(3)]
+    t = np.arange(8) + 0.5
+    found = simulated(t, *joints, gate=getattr(math_boolean, name)(nu=3), **pulses)["gate.y"]
+    assert np.asarray(found).tolist() == [float(rule([n >> k & 1 for k in range(3)])) for n in range(8)]
+
+
+def test_gates_without_inputs() -> None:
+    empty = {name: getattr(math_boolean, name)(nu=0) for name in ("And", "Or", "Xor")}
+    solution = simulated([1.0], **empty, total=blocks.MultiSum(nu=0), times=blocks.MultiProduct(nu=0))
+    assert [float(solution[f"{n}.y"][0]) for n in (*empty, "total", "times")] == [1.0, 0.0, 0.0, 0.0, 0.0]
+
+
+def test_flip_flop_that_is_set_and_reset_at_once() -> None:
+    """Both gates are off then; `Qini` is what was before the start."""
+    on, off = blocks.BooleanTable(table=[1, 3]), blocks.BooleanTable(table=[2, 4])
+    flip = blocks.RSFlipFlop(Qini=True)
+    solution = simulated([0.5, 1.5, 2.5, 3.5, 4.5], "on.y - flip.S", "off.y - flip.R", on=on, off=off, flip=flip)
+    assert np.asarray(solution["flip.Q"]).tolist() == [1.0, 1.0, 0.0, 0.0, 0.0]
+    assert np.asarray(solution["flip.QI"]).tolist() == [0.0, 0.0, 0.0, 1.0, 1.0]
+
+
+@pytest.mark.parametrize("was", [False, True])
+def test_edges_at_the_start(was: bool) -> None:
+    """An edge at the start is what differs from `pre_u_start`; a latch sees it."""
+    parts = {"up": blocks.Edge(pre_u_start=was), "down": blocks.FallingEdge(pre_u_start=was),
+             "any": blocks.Change(pre_u_start=was), "pre": blocks.Pre(pre_u_start=was)}  # fmt: skip
+    model = assemble("on.y - " + " - ".join(f"{n}.u" for n in parts), on=blocks.BooleanConstant(), **parts)
+    solution = ac.compile(model).simulate(1.0, saveat=[1.0])
+    assert [float(solution[f"{n}.y"][0]) for n in parts] == [0.0, 0.0, 0.0, 1.0]
+    held = blocks.Hysteresis(uLow=-1.0, uHigh=1.0, pre_y_start=was)
+    control = blocks.OnOffController(bandwidth=2.0, pre_y_start=was)
+    parts = {"zero": blocks.Constant(k=0.0), "held": held, "control": control}
+    solution = simulated([0.0, 1.0], "zero.y - held.u - control.u - control.reference", **parts)
+    assert np.asarray(solution["held.y"]).tolist() == np.asarray(solution["control.y"]).tolist() == [float(was)] * 2
+
+
+def test_trapezoids_that_are_cut_short() -> None:
+    shape = blocks.TriggeredTrapezoid(amplitude=2.0, rising=1.0, falling=0.0, offset=1.0)
+    pulse = blocks.BooleanTable(table=[0.5, 1.0, 2.0])
+    found = simulated([0.25, 0.75, 1.5, 2.5, 3.5], "pulse.y - shape.u", pulse=pulse, shape=shape)["shape.y"]
+    assert_allclose(found, [1.0, 1.5, 1.0, 2.0, 3.0], atol=1e-9)
+    on = simulated([0.0, 1.0], "on.y - shape.u", on=blocks.BooleanConstant(), shape=shape)["shape.y"]
+    assert_allclose(on, [3.0, 3.0], err_msg="true from the start: the trapezoid is there")
+
+
+def test_condition_that_does_not_hold() -> None:
+    step = blocks.BooleanStep(startTime=0.5, startValue=True)
+    with pytest.raises(ac.SimulationError, match=r"At t = 0\.5 s the assertion of test .* does not hold: too late"):
+        simulated([1.0], "step.y - test.u", step=step, test=blocks.AssertCondition(message="too late"))
+    with pytest.raises(ac.DeclarationError, match="assertionLevel='fatal' is none of error, warning"):
+        simulated([1.0], "step.y - test.u", step=step, test=blocks.AssertCondition(assertionLevel="fatal"))
+
+
+# ---- integers ---------------------------------------------------------------------------------------
+def test_sum_that_is_reset() -> None:
+    add = math_integer.TriggeredAdd(use_reset=True, use_set=True, y_start=1)
+    pulse, stop = blocks.BooleanPulse(period=1.0, startTime=0.5), blocks.BooleanStep(startTime=2.2)
+    parts = {"two": blocks.IntegerConstant(k=2), "ten": blocks.IntegerConstant(k=10), "pulse": pulse, "stop": stop}
+    solution = simulated(
+        [0.2, 0.7, 1.7, 2.3, 2.7], "two.y - add.u", "ten.y - add.set", "pulse.y - add.trigger", "stop.y - add.reset",
+        add=add, **parts,
+    )  # fmt: skip
+    assert np.asarray(solution["add.y"]).tolist() == [1.0, 3.0, 5.0, 10.0, 10.0], "true, the reset holds"
+
+
+def test_rounding_to_integers() -> None:
+    values = np.linspace(-2.6, 2.6, 27)
+    assert along(blocks.RealToInteger(), values).tolist() == np.round(values).tolist()
+    assert_allclose(along(blocks.WrapAngle(), [-7.0, -4.0, 3.0, 4.0]), np.angle(np.exp(1j * np.array([-7, -4, 3, 4]))))
+    positive = along(blocks.WrapAngle(positiveRange=True), [-7.0, -4.0, 3.0, 8.0])
+    assert_allclose(positive, np.mod([-7.0, -4.0, 3.0, 8.0], 2 * np.pi))
+
+
+@pytest.mark.parametrize(("table", "text"), [
+    (blocks.IntegerTable(table=[[0, 1.5]]), "rows of a time and an integer"),
+    (blocks.IntegerTable(table=[[0, 1], [0, 2]]), "times of a table must increase"),
+    (blocks.BooleanTable(table=[2.0, 1.0]), "times of a table must increase"),
+    (blocks.BooleanTable(extrapolation="LastTwoPoints"), "LastTwoPoints.*none of HoldLastPoint, Periodic"),
+])  # fmt: skip
+def test_tables_that_are_none(table: Component, text: str) -> None:
+    with pytest.raises(ac.DeclarationError, match=text):
+        ac.compile(assemble(table=table))
+
+
+def test_tables_of_booleans_and_integers_begin_anew() -> None:
+    parts = {
+        "yes": blocks.BooleanTable(table=[0, 1, 3], extrapolation="Periodic", shiftTime=0.5, startTime=1.0),
+        "number": blocks.IntegerTable(table=[[0, 4], [1, 5], [2, 6]], extrapolation="Periodic"),
+    }  # fmt: skip
+    solution = simulated([0.7, 1.2, 2.0, 3.7, 4.2, 5.3], **parts)
+    assert np.asarray(solution["yes.y"]).tolist() == [0.0, 1.0, 0.0, 1.0, 1.0, 0.0]
+    assert np.asarray(solution["number.y"]).tolist() == [4.0, 5.0, 4.0, 5.0, 4.0, 5.0]
+
+
+# ---- tables -----------------------------------------------------------------------------------------
+X, Y = [0.0, 1.0, 2.5, 3.0, 5.0], [0.0, 2.0, 2.5, 2.4, -1.0]
+
+
+def test_cubics_of_a_table() -> None:
+    """Modified Akima as SciPy has it; Steffen's are monotone where the points are, and go through them."""
+    inside = np.linspace(0.0, 5.0, 41)
+    rows = list(zip(X, Y, strict=True))
+    found = along(blocks.CombiTable1Ds(table=rows, smoothness="ModifiedContinuousDerivative"), inside)[:, 0]
+    assert_allclose(found, interpolate.Akima1DInterpolator(X, Y, method="makima")(inside), atol=1e-9)
+    steffen = along(blocks.CombiTable1Ds(table=rows, smoothness="MonotoneContinuousDerivative2"), inside)[:, 0]
+    assert np.all(np.diff(steffen[inside <= 2.5]) >= -1e-9) and np.all(np.diff(steffen[inside >= 2.5]) <= 1e-9)
+    assert_allclose(steffen[np.isin(inside, X)], [y for x, y in rows if x in inside], atol=1e-9)
+    slope = (2.0 * 1.5 + (0.5 / 1.5) * 1.0) / 2.5  # of the parabola at the second point, limited to twice 1/3
+    limited = 2 * min(2.0, 0.5 / 1.5, slope / 2)
+    curve = blocks.CombiTable1Ds(table=rows, smoothness="MonotoneContinuousDerivative2")
+    near = along(curve, [0.999, 1.0, 1.001])[:, 0]
+    assert_allclose((near[2] - near[0]) / 2e-3, limited, rtol=3e-3)
+
+
+def test_tables_that_are_not_extrapolated() -> None:
+    with pytest.raises(ac.SimulationError, match="a table from 0 to 5 is not extrapolated"):
+        along(blocks.CombiTable1Ds(table=list(zip(X, Y, strict=True)), extrapolation="NoExtrapolation"), [4.0, 6.0])
+    with pytest.raises(ac.DeclarationError, match="column 4: the table has columns from 2 to 2"):
+        along(blocks.CombiTable1Ds(table=list(zip(X, Y, strict=True)), columns=[4]), [4.0, 6.0])
+    with pytest.raises(ac.SimulationError, match="a table from 1 to 2 is not extrapolated"):
+        map2(blocks.CombiTable2Ds(table=MAP, extrapolation="NoExtrapolation"), 15.0, 3.0)
+
+
+MAP = [[0, 1, 2], [10, 0, 4], [20, 8, 16]]
+
+
+def map2(table: Component, u1: float, u2: float) -> float:
+    parts = {"a": blocks.Constant(k=u1), "b": blocks.Constant(k=u2), "map": table}
+    return float(simulated([1.0], "a.y - map.u1", "b.y - map.u2", **parts)["map.y"][0])
+
+
+@pytest.mark.parametrize(("options", "point", "value"), [
+    ({}, (25.0, 3.0), 8 + (8 - 0) / 2 + 2 * (8 + (12 - 8) / 2)),  # both continued
+    ({"extrapolation": "HoldLastPoint"}, (25.0, 3.0), 16.0),
+    ({"extrapolation": "Periodic"}, (35.0, 2.25), 5.5),
+    ({"smoothness": "ConstantSegments"}, (19.0, 1.9), 0.0),
+])  # fmt: skip
+def test_map(options: dict[str, str], point: tuple[float, float], value: float) -> None:
+    assert map2(blocks.CombiTable2Ds(table=MAP, **options), *point) == pytest.approx(value)  # pyright: ignore
+
+
+def test_a_map_is_not_cubic() -> None:
+    with pytest.raises(ac.DeclarationError, match="LinearSegments or ConstantSegments"):
+        map2(blocks.CombiTable2Ds(table=MAP, smoothness="ContinuousDerivative"), 15.0, 1.5)
+
+
+# ---- routing ----------------------------------------------------------------------------------------
+def test_extractor() -> None:
+    step = blocks.IntegerStep(offset=1, height=2, startTime=0.5)
+    parts = {"one": blocks.Constant(k=1.0), "two": blocks.Constant(k=2.0), "step": step}
+    joints = ("one.y - pick.u[0]", "two.y - pick.u[1]", "step.y - pick.index")
+    free = blocks.Extractor(nin=2, allowOutOfRange=True, outOfRangeValue=-7.0)
+    assert np.asarray(simulated([0.4, 0.6], *joints, pick=free, **parts)["pick.y"]).tolist() == [1.0, -7.0]
+    with pytest.raises(ac.SimulationError, match="the index of an Extractor is out of range: there are 2 signals"):
+        simulated([0.4, 0.6], *joints, pick=blocks.Extractor(nin=2), **parts)
+
+
+@pytest.mark.parametrize(("block", "text"), [
+    (blocks.ExtractSignal(nin=2, extract=[3]), "no numbers from 1 to 2"),
+    (blocks.MinMax(nu=0), "no smallest of no signals"),
+    (blocks.MatrixGain(K=[[1.0, 2.0], [3.0]]), "different lengths"),
+    (blocks.PadeDelay(n=2, m=3), "n=2, m=3"),
+    (discrete.TransferFunction(b=[1.0, 2.0]), "b not longer than a"),
+    (discrete.StateSpace(C=[[1.0]]), r"should have 1 rows of 2 numbers"),
+])  # fmt: skip
+def test_blocks_that_are_none(block: Component, text: str) -> None:
+    with pytest.raises(ac.DeclarationError, match=text):
+        ac.compile(assemble(block=block))
+
+
+# ---- linear systems ---------------------------------------------------------------------------------
+@pytest.mark.parametrize(("n", "m"), [(1, 0), (3, 2), (5, 0)])
+@pytest.mark.parametrize("balance", [False, True])
+def test_pade_delay(n: int, m: int, balance: bool) -> None:
+    """SciPy's Pade approximation of exp(-s T), as a transfer function."""
+    T, t = 0.4, np.linspace(0.0, 1.5, 31)
+    taylor = [(-T) ** k / float(np.prod(np.arange(1, k + 1))) for k in range(n + (m or n) + 1)]
+    p, q = interpolate.pade(taylor, n, m or n)
+    fine = np.linspace(0.0, 1.5, 3001)
+    wanted = signal.lsim((p.coeffs, q.coeffs), np.sin(3 * fine), fine)[1][::100]
+    late = blocks.PadeDelay(delayTime=T, n=n, m=m, balance=balance)
+    wave = blocks.Sine(f=3 / (2 * np.pi))
+    found = simulated(t, "wave.y - late.u", wave=wave, late=late)["late.y"]
+    assert_allclose(found, wanted, atol=1e-6)
+
+
+def test_steadiest_start_of_a_state_space() -> None:
+    """The smallest derivatives among the states with the wanted output, by least squares in the null space of C."""
+    A, B = [[-1.0, 2.0, 0.0], [0.0, -3.0, 1.0], [1.0, 0.0, -2.0]], [[1.0], [0.0], [2.0]]
+    C, D = [[1.0, 1.0, 0.0]], [[0.5]]
+    space = blocks.StateSpace(A=A, B=B, C=C, D=D, initType="InitialOutput", y_start=(4.0,))
+    x = np.asarray(simulated([0.0, 0.1], "u.y - space.u[0].u", u=blocks.Constant(k=3.0), space=space)["space.x"])[0]
+    y = 4.0 - 1.5
+    some, free = np.array([y, 0.0, 0.0]), np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0]])
+    a, b = np.array(A), np.array(B)[:, 0] * 3.0
+    wanted = some + free @ np.linalg.lstsq(a @ free, -(a @ some + b), rcond=None)[0]
+    assert_allclose(x, wanted, atol=1e-9)
+
+
+def test_limits_of_an_integrator_at_the_start() -> None:
+    one = {"one": blocks.Constant(k=1.0)}
+    inside = blocks.LimIntegrator(outMax=2.0, limitsAtInit=False, initType="InitialState", y_start=1.5)
+    assert_allclose(simulated([0.0, 1.0], "one.y - level.u", **one, level=inside)["level.y"], [1.5, 2.0], atol=1e-6)
+    beyond = blocks.LimIntegrator(outMax=2.0, limitsAtInit=False, initType="InitialState", y_start=3.0)
+    with pytest.raises(ac.AcausalError, match="the start of a LimIntegrator is not within its limits"):
+        simulated([0.0, 1.0], "one.y - level.u", **one, level=beyond)
+
+
+def test_integrator_that_is_set() -> None:
+    level = blocks.Integrator(use_reset=True, use_set=True, y_start=1.0)
+    parts = {"two": blocks.Constant(k=2.0), "five": blocks.Constant(k=5.0), "at": blocks.BooleanStep(startTime=0.5)}
+    found = simulated([0.4, 1.0], "two.y - level.u", "five.y - level.set", "at.y - level.reset", level=level, **parts)
+    assert_allclose(found["level.y"], [1.8, 6.0])
+    limited = blocks.LimIntegrator(use_reset=True, use_set=True, outMax=3.0)
+    found = simulated([0.6], "two.y - level.u", "five.y - level.set", "at.y - level.reset", level=limited, **parts)
+    assert_allclose(found["level.y"], [3.0], atol=1e-6)
+
+
+# ---- statistics -------------------------------------------------------------------------------------
+def test_means_of_a_run_that_does_not_begin_at_zero() -> None:
+    """Periods count from the start of the run."""
+    mean, later = blocks.Mean(f=1.0), blocks.ContinuousMean(startTime=3.0)
+    parts = {"ramp": blocks.Slope(slope=2.0), "mean": mean, "later": later}
+    model = ac.compile(assemble("ramp.y - mean.u - later.u", **parts))
+    solution = model.simulate(4.0, t0=1.5, saveat=[2.4, 2.6, 3.6, 4.0], rtol=1e-9)
+    assert_allclose(solution["mean.y"], [0.0, 4.0, 6.0, 6.0], atol=1e-7)
+    assert_allclose(solution["later.y"], [4.8, 5.2, 6.6, 7.0], atol=1e-6)
+
+
+def test_moments_are_those_of_the_samples() -> None:
+    wave = blocks.Sine(amplitude=2.0, f=0.3, phase=0.4)
+    t = np.linspace(0.0, 7.3, 100_001)
+    u = 2.0 * np.sin(2 * np.pi * 0.3 * t + 0.4)
+    solution = simulated([3.0, 7.3], "wave.y - mean.u - spread.u", wave=wave, mean=blocks.ContinuousMean(),
+                         spread=blocks.Variance())  # fmt: skip
+    assert solution["mean.y"][-1] == pytest.approx(np.trapezoid(u, t) / 7.3, rel=1e-5)
+    mu = np.concatenate([[u[0]], (np.cumsum(u[1:] + u[:-1]) / 2 * (t[1] - t[0])) / t[1:]])
+    assert solution["spread.y"][-1] == pytest.approx(np.trapezoid((u - mu) ** 2, t) / 7.3, rel=1e-3)
+
+
+def test_distortion_that_is_there_and_that_is_not() -> None:
+    parts = {"none": blocks.Constant(k=0.0), "thd": blocks.TotalHarmonicDistortion(f=1.0)}
+    assert float(simulated([2.5], "none.y - thd.u", **parts)["thd.valid"][0]) == 0.0
+    square = blocks.Pulse(period=1.0, amplitude=2.0, offset=-1.0)
+    parts = {"square": square, "thd": blocks.TotalHarmonicDistortion(f=1.0)}
+    solution = simulated([2.5], "square.y - thd.u", **parts)
+    assert solution["thd.y"][0] == pytest.approx(np.sqrt(np.pi**2 / 8 - 1), rel=1e-6)
+    assert float(solution["thd.valid"][0]) == 1.0
+
+
+def test_extrema() -> None:
+    wave = blocks.ExpSine(f=1.0, damping=0.3)
+    parts = {"wave": wave, "often": blocks.SignalExtrema(Ts=1e-3), "exact": blocks.ContinuousSignalExtrema(T=1e-5)}
+    solution = simulated([3.0], "wave.y - often.u - exact.u", **parts)
+    t = np.linspace(0.0, 3.0, 300_001)
+    u = np.exp(-0.3 * t) * np.sin(2 * np.pi * t)
+    for name, close in (("often", 1e-5), ("exact", 1e-7)):
+        assert solution[f"{name}.y_max"][0] == pytest.approx(u.max(), abs=close)
+        assert solution[f"{name}.y_min"][0] == pytest.approx(u.min(), abs=close)
+        assert solution[f"{name}.t_max"][0] == pytest.approx(t[u.argmax()], abs=1e-3)
