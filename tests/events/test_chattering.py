@@ -10,22 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import acausal as ac
-from acausal import (
-    Component,
-    Discrete,
-    Equations,
-    Parameter,
-    Variable,
-    connect,
-    der,
-    inner,
-    pre,
-    reinit,
-    start,
-    when,
-    where,
-)
-from acausal.components import blocks, hydraulic
+from acausal import Component, Discrete, Equations, Parameter, Variable, der, pre, reinit, when, where
 
 from .benchmarks import BouncingBall
 
@@ -60,34 +45,6 @@ def test_chattering(engine: Any) -> None:
 def test_chattering_that_the_solver_steps_over_costs_all_steps() -> None:
     with pytest.raises(ac.SimulationError, match="look for chattering in this variable"):
         ac.compile(Sliding()).simulate(2.0, events=False, max_steps=10_000)
-
-
-class Pipeline(Component):
-    """The law of pipe friction that jumps at Re = 2000, with a pressure difference between both of its losses there."""
-
-    oil: hydraulic.Oil = inner(hydraulic.Oil())
-    pressure: blocks.Constant = blocks.Constant(k=1e5 + 2.6e4)
-    source: hydraulic.PressureSource = hydraulic.PressureSource()
-    pipe: hydraulic.Pipe = hydraulic.Pipe(
-        friction=hydraulic.PaperFriction(), p_a=start(1e5), p_b=start(1e5), q=start(0.0, fixed=True)
-    )
-    tank: hydraulic.Tank = hydraulic.Tank(p=1e5)
-
-    def equations(self) -> Equations:
-        yield connect(self.pressure.y, self.source.p)
-        yield connect(self.source.port, self.pipe.port_a)
-        yield connect(self.pipe.port_b, self.tank.port)
-
-
-@pytest.mark.parametrize("engine", BOTH)
-def test_friction_that_jumps(engine: Any) -> None:
-    place = r"\(pipe.friction, .*pipes\.py:\d+ \(PaperFriction\)\)"
-    pattern = rf"a condition chatters(.|\n)*`pipe.friction.Re < 2000` {place}"
-    with pytest.raises(ac.SimulationError, match=pattern):
-        ac.compile(Pipeline()).simulate(100.0, engine=engine)
-    smooth = ac.redeclare(Pipeline(), {"pipe.friction": hydraulic.BlendedFriction()})
-    solution = ac.compile(smooth).simulate(100.0, engine=engine, saveat=2)
-    assert 2000 < solution["pipe.friction.Re"][-1] < 4000
 
 
 @pytest.mark.parametrize(
