@@ -32,13 +32,24 @@ def sized(cls: type[R], modifications: Mapping[str, Any]) -> type[R]:
         return generic
     if sizes not in generic._made:
         body = {"_lengths": sizes, "_generic": generic, "__module__": generic.__module__, "__doc__": generic.__doc__,
-                "__qualname__": generic.__qualname__}  # fmt: skip
+                "__qualname__": generic.__qualname__, "__reduce__": _reduced}  # fmt: skip
         made = types.new_class(
             generic.__name__, (generic,), {"partial": generic._partial}, lambda names: names.update(body)
         )
         made._source = generic._source
         generic._made[sizes] = made
     return generic._made[sizes]
+
+
+def _reduced(component: Instance) -> tuple[Any, ...]:
+    """How to make a component anew where its class has no name, as `pickle` asks for it."""
+    return _restored, (type(component)._generic, component.__dict__["_mods"], component.__dict__["_path"])
+
+
+def _restored(generic: type[Instance], mods: dict[str, Any], path: tuple[Any, ...]) -> Instance:
+    new = object.__new__(sized(generic, mods))
+    new.__dict__.update(_mods=mods, _path=path)
+    return new
 
 
 def sizes_of(cls: type[Instance], structural: Mapping[str, Any]) -> tuple[int, ...]:

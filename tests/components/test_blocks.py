@@ -297,3 +297,33 @@ def test_extrema() -> None:
         assert solution[f"{name}.y_max"][0] == pytest.approx(u.max(), abs=close)
         assert solution[f"{name}.y_min"][0] == pytest.approx(u.min(), abs=close)
         assert solution[f"{name}.t_max"][0] == pytest.approx(t[u.argmax()], abs=1e-3)
+
+
+def test_phase_of_an_encoder() -> None:
+    """Blocks.Examples.SinCosEncoder: an integrator follows the phase of two signals, w/2e6 behind, for fifty turns."""
+
+    class Encoder(Component):
+        ramp: blocks.Ramp = blocks.Ramp(height=100.0, duration=1.0)
+        cosine: blocks.CosineVariableFrequencyAndAmplitude = blocks.CosineVariableFrequencyAndAmplitude(
+            useConstantAmplitude=True, constantAmplitude=2.0
+        )
+        sine: blocks.SineVariableFrequencyAndAmplitude = blocks.SineVariableFrequencyAndAmplitude(
+            useConstantAmplitude=True, constantAmplitude=2.0
+        )
+        integrator: blocks.Integrator = blocks.Integrator(k=1e6)
+        der1: blocks.Der = blocks.Der()
+        wrapAngle: blocks.WrapAngle = blocks.WrapAngle()
+
+        def equations(self) -> ac.Equations:
+            angle = self.integrator.y
+            yield ac.connect(self.ramp.y, self.sine.f, self.cosine.f)
+            yield self.integrator.u == self.sine.y * ac.cos(angle) - self.cosine.y * ac.sin(angle)
+            yield ac.connect(self.integrator.y, self.der1.u, self.wrapAngle.u)
+
+    t = np.linspace(0.0, 1.0, 12)
+    solution = ac.compile(Encoder()).simulate(1.0, saveat=t, rtol=1e-10)
+    phase, w = 100 * np.pi * t**2, 200 * np.pi * t
+    assert_allclose(solution["integrator.y"], phase - w / 2e6, atol=1e-6)
+    assert_allclose(solution["der1.y"], w, atol=1e-3)
+    assert_allclose(np.exp(1j * np.asarray(solution["wrapAngle.y"])), np.exp(1j * (phase - w / 2e6)), atol=1e-6)
+    assert np.all(np.abs(solution["wrapAngle.y"]) <= np.pi)

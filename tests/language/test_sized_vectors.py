@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 import re
 
 import numpy as np
@@ -125,6 +127,12 @@ class Bank(Component):
 def test_arrays_of_components_with_such_vectors() -> None:
     solution = ac.compile(Bank(n=4)).simulate(1.0, saveat=[1.0])
     assert np.asarray(solution["sums.y"]).tolist() == [[10.0, 10.0]]
+
+
+def test_components_of_any_size_are_copied_and_pickled() -> None:
+    for made in (Total(n=2), Total(n=4, k=(1.0, 2.0, 3.0, 4.0)), Triple(n=1)):
+        for again in (pickle.loads(pickle.dumps(made)), copy.copy(made)):
+            assert type(again) is type(made) and repr(again) == repr(made)
 
 
 def test_a_size_that_is_none() -> None:
