@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -181,6 +182,16 @@ def test_map(options: dict[str, str], point: tuple[float, float], value: float) 
 def test_a_map_is_not_cubic() -> None:
     with pytest.raises(ac.DeclarationError, match="LinearSegments or ConstantSegments"):
         map2(blocks.CombiTable2Ds(table=MAP, smoothness="ContinuousDerivative"), 15.0, 1.5)
+
+
+def test_tables_on_file(tmp_path: Path) -> None:
+    file = tmp_path / "curve.csv"
+    file.write_text("Curve\nu;a;b\n0;0;5\n1;2;6\n3;0;7\n", encoding="utf-8")
+    given: dict[str, Any] = {"tableOnFile": True, "fileName": str(file), "delimiter": ";", "nHeaderLines": 2}
+    assert_allclose(along(blocks.CombiTable1Ds(**given), [0.5, 2.0]), [[1.0, 5.5], [1.0, 6.5]])
+    assert_allclose(simulated([0.5, 2.0], table=blocks.CombiTimeTable(**given))["table.y[2]"], [5.5, 6.5])
+    with pytest.raises(ac.DeclarationError, match=r"fileName='none.csv'` holds no table of numbers"):
+        blocks.CombiTimeTable(tableOnFile=True, fileName="none.csv")
 
 
 # ---- routing ----------------------------------------------------------------------------------------

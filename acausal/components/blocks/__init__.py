@@ -198,6 +198,7 @@ from .tables import CombiTable2Ds as CombiTable2Ds
 from .tables import CombiTable2Dv as CombiTable2Dv
 from .tables import PartialTable as PartialTable
 from .tables import PartialTable2D as PartialTable2D
+from .tables import PartialTableData as PartialTableData
 from .time_tables import CombiTimeTable as CombiTimeTable
 from .time_tables import TimeTable as TimeTable
 from .time_tables import time_table as time_table

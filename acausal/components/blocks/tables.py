@@ -4,19 +4,44 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from acausal import Component, DeclarationError, Equations, Expr, Input, Output, Vector, assert_
 
 from .interfaces import SI2SO
 from .piecewise import interpolate, interpolate2
 
 
-class PartialTable(Component, partial=True):
+class PartialTableData(Component, partial=True):
+    """A table of numbers: `table`, or with `tableOnFile` what a CSV file has below `nHeaderLines` lines.
+
+    Source: Modelica.Blocks.Tables.CombiTable1Ds, for CSV files.
+    """
+
+    table: Sequence[Sequence[float]] = ((0.0, 0.0), (1.0, 1.0))
+    tableOnFile: bool = False
+    fileName: str = ""
+    delimiter: str = ","
+    nHeaderLines: int = 0
+
+    @property
+    def rows(self) -> list[list[float]]:
+        """The rows of the table."""
+        if not self.tableOnFile:
+            return [list(row) for row in self.table]
+        try:
+            found = np.loadtxt(self.fileName, delimiter=self.delimiter, skiprows=self.nHeaderLines, ndmin=2)
+        except (OSError, ValueError) as error:
+            raise DeclarationError(f"`fileName={self.fileName!r}` holds no table of numbers: {error}") from None
+        return [[float(x) for x in row] for row in found]
+
+
+class PartialTable(PartialTableData, partial=True):
     """A table whose first column is the abscissa, and the columns that are looked up.
 
     Source: Modelica.Blocks.Tables.CombiTable1Ds.
     """
 
-    table: Sequence[Sequence[float]] = ((0.0, 0.0), (1.0, 1.0))
     columns: Sequence[float] = ()
     column: int = 0
     smoothness: str = "LinearSegments"
@@ -27,7 +52,7 @@ class PartialTable(Component, partial=True):
         """The columns that are looked up, counted from 1."""
         if self.column:
             return [self.column]
-        return [int(k) for k in self.columns] or list(range(2, len(self.table[0]) + 1))
+        return [int(k) for k in self.columns] or list(range(2, len(self.rows[0]) + 1))
 
     @property
     def nout(self) -> int:
@@ -37,14 +62,14 @@ class PartialTable(Component, partial=True):
     @property
     def abscissas(self) -> list[float]:
         """The first column."""
-        return [row[0] for row in self.table]
+        return [row[0] for row in self.rows]
 
     def value(self, u: Expr, k: int) -> Expr:
         """The value of the k-th of the columns at `u`."""
-        column = self.chosen[k]
-        if not 1 < column <= len(self.table[0]):
-            raise DeclarationError(f"column {column}: the table has columns from 2 to {len(self.table[0])}")
-        ordinates = [row[column - 1] for row in self.table]
+        column, rows = self.chosen[k], self.rows
+        if not 1 < column <= len(rows[0]):
+            raise DeclarationError(f"column {column}: the table has columns from 2 to {len(rows[0])}")
+        ordinates = [row[column - 1] for row in rows]
         return interpolate(u, self.abscissas, ordinates, self.smoothness, self.extrapolation)
 
     def inside(self, u: Expr, points: Sequence[float], when: Expr | None = None) -> Equations:
@@ -105,7 +130,7 @@ class CombiTable1Dv(PartialTable):
         yield self.y == [self.value(self.u[k], k) for k in range(self.nout)]
 
 
-class PartialTable2D(Component, partial=True):
+class PartialTable2D(PartialTableData, partial=True):
     """A table over two signals; the number in its corner has no meaning.
 
     Source: Modelica.Blocks.Tables.Internal.CombiTable2DBase.
@@ -117,13 +142,14 @@ class PartialTable2D(Component, partial=True):
 
     def look_up(self, u1: Expr, u2: Expr) -> Expr:
         """The value at `u1` (first column) and `u2` (first row)."""
-        values = [row[1:] for row in self.table[1:]]
+        values = [row[1:] for row in self.rows[1:]]
         return interpolate2(u1, u2, *self.edges, values, self.smoothness, self.extrapolation)
 
     @property
     def edges(self) -> tuple[list[float], list[float]]:
         """First column and first row."""
-        return [row[0] for row in self.table[1:]], list(self.table[0][1:])
+        rows = self.rows
+        return [row[0] for row in rows[1:]], rows[0][1:]
 
     def inside(self, u1: Expr, u2: Expr) -> Equations:
         """The assertion that both signals are in the table, without extrapolation."""
