@@ -108,9 +108,11 @@ from .interfaces import SignalIn as SignalIn
 from .interfaces import SignalOut as SignalOut
 from .interfaces import SignalSource as SignalSource
 from .logical import And as And
+from .logical import BooleanChange as BooleanChange
 from .logical import Change as Change
 from .logical import Edge as Edge
 from .logical import FallingEdge as FallingEdge
+from .logical import IntegerChange as IntegerChange
 from .logical import LogicalSwitch as LogicalSwitch
 from .logical import Nand as Nand
 from .logical import Nor as Nor

@@ -2,7 +2,19 @@
 
 from __future__ import annotations
 
-from acausal import Component, Discrete, Equations, Input, Output, Parameter, connect, structural, where
+from acausal import (
+    Component,
+    Discrete,
+    Equations,
+    Input,
+    Output,
+    Parameter,
+    change,
+    connect,
+    initial,
+    structural,
+    where,
+)
 
 from .booleans import PartialBooleanSI2SO, PartialBooleanSISO, PartialPrevious, boolean, true
 
@@ -85,6 +97,31 @@ class Change(PartialPrevious):
         yield from super().equations()
         now, before = true(self.u), self.before()
         yield self.y == boolean((now & ~before) | (before & ~now))
+
+
+BooleanChange = Change
+
+
+class IntegerChange(Component):
+    """True at the events at which the integer changes, ``y = change(u)``.
+
+    >>> model = assemble("steps.y - edge.u", "edge.y - count.trigger", "one.y - count.u", one=IntegerConstant(),
+    ...                  steps=IntegerTable(table=[[0, 1], [0.2, 5], [0.6, -2]]), edge=IntegerChange(),
+    ...                  count=math_integer.TriggeredAdd())
+    >>> run(model, at=[0.0, 0.4, 0.8])["count.y"]
+    [0.0, 1.0, 2.0]
+
+    Source: Modelica.Blocks.Math.IntegerChange.
+    """
+
+    u: Input = Input(doc="integer")
+    held: Discrete = Discrete(doc="the integer")
+    y: Discrete = Discrete(doc="true at changes")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.held == self.u
+        yield self.y == boolean(change(self.held) & ~initial())
 
 
 class And(PartialBooleanSI2SO):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import acausal as ac
-from acausal import Component, Equations, Expr, Output, Parameter, Variable, sqrt, where
+from acausal import Component, Discrete, Equations, Expr, Output, Parameter, Variable, sqrt, where
 
 
 class PartialPTP(Component, partial=True):
@@ -47,11 +47,14 @@ class PartialPTP(Component, partial=True):
 class KinematicPTP2(PartialPTP):
     """Fastest motion from `q_begin` to `q_end` within a speed `qd_max` and an acceleration `qdd_max`.
 
-    Outputs the position `q`, the velocity `qd` and the acceleration `qdd`; at rest at `endTime`.
+    Outputs the position `q`, the velocity `qd` and the acceleration `qdd`; at rest at `endTime`. The boolean `moving`
+    is true until then, if there is a way to go.
 
     >>> motion = run(KinematicPTP2(q_end=1.0, qd_max=2.0, qdd_max=8.0), at=[0.0, 0.25, 0.5, 0.75, 1.0])
     >>> close(motion["q"], [0.0, 0.25, 0.75, 1.0, 1.0]) and close(motion["qd"], [0.0, 2.0, 2.0, 0.0, 0.0])
     True
+    >>> motion["moving"]
+    [1.0, 1.0, 1.0, 0.0, 0.0]
 
     Source: Modelica.Blocks.Sources.KinematicPTP2 with one axis.
     """
@@ -59,11 +62,14 @@ class KinematicPTP2(PartialPTP):
     q_begin: Parameter = Parameter(0.0, doc="position at the start")
     q_end: Parameter = Parameter(1.0, doc="position at the end")
     q: Output = Output(doc="position")
+    moving: Discrete = Discrete(doc="whether the end has not been reached")
 
     def equations(self) -> Equations:
         yield from super().equations()
         yield from self.motion(self.q_end - self.q_begin)
         yield self.q == self.q_begin + self.s
+        away = ac.abs(self.q_end - self.q_begin) > 2e-15
+        yield self.moving == where((ac.time < self.endTime) & away, 1.0, 0.0)
 
 
 class KinematicPTP(PartialPTP):
