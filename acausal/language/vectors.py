@@ -15,6 +15,7 @@ from ..errors import DeclarationError
 from ..symbolic.equation import Equation
 from ..symbolic.expr import Expr, Operand, add, as_expr, make, symbol
 from .declarations import Declaration, Kind, Start
+from .instance import call_site, path_text
 
 Elements = Sequence["Operand | Declaration"]
 """Numbers, expressions or declarations, one an element."""
@@ -31,6 +32,10 @@ class VectorEquation:
             "an equation between vectors is neither true nor false: yield it from equations(); conditions are written "
             "for the elements"
         )
+
+
+class ElementError(DeclarationError, IndexError):
+    """An element that a vector does not have."""
 
 
 class Quantities:
@@ -199,7 +204,13 @@ class Vector(Quantities):
         return len(self.elements)
 
     def __getitem__(self, index: int) -> Expr:
-        return as_expr(self.elements[index])
+        try:
+            return as_expr(self.elements[index])
+        except IndexError:
+            text = path_text(self.__dict__["path"]) if "path" in self.__dict__ else self.name or "the vector"
+            n = len(self.elements)
+            have = f"{n} elements, [0] to [{n - 1}]" if n > 1 else f"{n or 'no'} element{'' if n else 's'}"
+            raise ElementError(f"`{text}` has {have}: there is no [{index}] {call_site()}".rstrip()) from None
 
     def __iter__(self) -> Iterator[Expr]:
         return (as_expr(e) for e in self.elements)

@@ -338,3 +338,20 @@ def test_phase_of_an_encoder() -> None:
     assert_allclose(solution["der1.y"], w, atol=1e-3)
     assert_allclose(np.exp(1j * np.asarray(solution["wrapAngle.y"])), np.exp(1j * (phase - w / 2e6)), atol=1e-6)
     assert np.all(np.abs(solution["wrapAngle.y"]) <= np.pi)
+
+
+def test_characteristics_of_pulses() -> None:
+    """Blocks.Examples.DemoSignalCharacteristic, with a duty cycle of 30 %: the integrals are elementary."""
+    top, base, duty, f = 3.0, -1.0, 0.3, 50.0
+    square = blocks.Pulse(amplitude=top - base, width=100 * duty, period=1 / f, offset=base)
+    kinds = {"mean": blocks.Mean, "rectifiedMean": blocks.RectifiedMean, "rootMeanSquare": blocks.RootMeanSquare,
+             "harmonic": blocks.Harmonic}  # fmt: skip
+    parts = {name: kind(f=f) for name, kind in kinds.items()}
+    solution = simulated([0.05], "square.y - " + " - ".join(f"{n}.u" for n in parts), square=square, **parts)
+    assert solution["mean.y"][0] == pytest.approx(top * duty + base * (1 - duty), abs=1e-7)
+    assert solution["rectifiedMean.y"][0] == pytest.approx(abs(top) * duty + abs(base) * (1 - duty), abs=1e-7)
+    wanted = np.sqrt(top**2 * duty + base**2 * (1 - duty))
+    assert solution["rootMeanSquare.y"][0] == pytest.approx(wanted, abs=1e-7)
+    first = (top - base) / (np.sqrt(2) * np.pi) * (np.sin(2 * np.pi * duty) + 1j * (1 - np.cos(2 * np.pi * duty)))
+    assert solution["harmonic.y_rms"][0] == pytest.approx(abs(first), rel=1e-6)
+    assert solution["harmonic.y_arg"][0] == pytest.approx(np.angle(first), abs=1e-6)

@@ -152,6 +152,24 @@ def test_a_size_that_is_none() -> None:
         ac.compile(Joined())
 
 
+class Missed(Component):
+    total: Total = Total(n=3)
+    one: Total = Total(n=1)
+    which: str = "total"
+
+    def equations(self) -> Equations:
+        yield getattr(self, self.which).u[self.total.n] == ac.time
+
+
+@pytest.mark.parametrize(("which", "has"), [("total", r"3 elements, \[0\] to \[2\]"), ("one", "1 element")])
+def test_an_element_that_is_not_there(which: str, has: str) -> None:
+    text = rf"`{which}\.u` has {has}: there is no \[3\] \(.*test_sized_vectors\.py:\d+\)"
+    with pytest.raises(ac.DeclarationError, match=text):
+        ac.compile(Missed(which=which))
+    with pytest.raises(IndexError, match="`u` has no elements"):
+        Total(n=0).u[0]
+
+
 class Joined(Component):
     none: Total = Total(n=0)
     source: Output = Output()
