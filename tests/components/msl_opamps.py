@@ -238,3 +238,27 @@ def signal_generator() -> Component:
         c=electrical.Capacitor(C=3.75e-5, v=start(0.0, fixed=True)), r=electrical.Resistor(R=1000.0),
         vOutRectangle=electrical.VoltageSensor(), vOutTriangle=electrical.VoltageSensor(),
     )  # fmt: skip
+
+
+def differential_amplifier() -> Component:
+    """Electrical.Analog.Examples.OpAmps.DifferentialAmplifier."""
+    attenuation, V = 100.0, math.sqrt(2 / 3) * 400.0
+    return assemble(
+        "voltageSensor.v - rootMeanSquare.u", "negativeSupply.p - opAmp.s_n", "opAmp.s_p - positiveSupply.p",
+        "resistor4.n - resistorGround.n - resistanceInstrument.n - voltageSensor.n - positiveSupply.n "
+        "- negativeSupply.n", "sourceVoltage1.n - sourceVoltage2.n - resistorGround.p - ground.p",
+        "sourceVoltage1.p - resistor1.p - voltageSensorSource.p - resistanceLoad.p",
+        "sourceVoltage2.p - resistor2.p - voltageSensorSource.n - resistanceLoad.n", "voltageSensorSource.v - gain.u",
+        "resistor3.n - resistanceInstrument.p - voltageSensor.p - opAmp.out", "resistor1.n - resistor3.p - opAmp.in_n",
+        "resistor2.n - resistor4.p - opAmp.in_p",
+        sourceVoltage1=electrical.SineVoltage(V=V, phase=math.pi / 3, f=50.0),
+        sourceVoltage2=electrical.SineVoltage(V=V, phase=-math.pi / 3, f=50.0),
+        resistanceLoad=electrical.Resistor(R=10.0), voltageSensorSource=electrical.VoltageSensor(),
+        gain=blocks.Gain(k=-1 / attenuation), resistorGround=electrical.Resistor(R=1e5),
+        opAmp=electrical.IdealizedOpAmpLimited(V0=1e4, useSupply=True), resistor1=electrical.Resistor(R=1e5),
+        resistor2=electrical.Resistor(R=1e5), resistor3=electrical.Resistor(R=1e5 / attenuation),
+        resistor4=electrical.Resistor(R=1e5 / attenuation), positiveSupply=electrical.ConstantVoltage(V=15.0),
+        negativeSupply=electrical.ConstantVoltage(V=-15.0), resistanceInstrument=electrical.Resistor(R=1e5),
+        voltageSensor=electrical.VoltageSensor(), rootMeanSquare=blocks.RootMeanSquare(f=50.0),
+        ground=electrical.Ground(),
+    )  # fmt: skip

@@ -21,6 +21,7 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
     "HighPass": msl_opamps.high_pass, "Integrator": msl_opamps.integrator,
     "Differentiator": msl_opamps.differentiator, "ControlCircuit": msl_opamps.control_circuit,
     "Multivibrator": msl_opamps.multivibrator, "SignalGenerator": msl_opamps.signal_generator,
+    "DifferentialAmplifier": msl_opamps.differential_amplifier,
     "CauerLowPassOPV": msl_networks.cauer_low_pass_opv, "DifferenceAmplifier": msl_networks.difference_amplifier,
     "CauerLowPassSC": msl_networks.cauer_low_pass_sc, "ParallelResonance": msl_resonance.parallel_resonance,
     "SeriesResonance": msl_resonance.series_resonance, "ResonanceCircuits": msl_resonance.resonance_circuits,
