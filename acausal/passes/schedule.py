@@ -14,7 +14,7 @@ from ..language.template import Floats, Ints
 from ..symbolic.differentiate import partial
 from ..symbolic.expr import ZERO, Expr, add, div, mul, neg, par, var
 from ..symbolic.isolate import Isolated, Solvability, isolate
-from ..symbolic.traverse import contains, evaluate, substitute
+from ..symbolic.traverse import contains, evaluate, postorder, substitute
 from .states import Selected
 from .structure import IndexReduced
 
@@ -248,9 +248,14 @@ class _BlockBuilder:
 
 
 def _pivots(isolated: Isolated, parameters: Floats) -> bool:
-    """Whether the coefficient is a number, or one of parameters that is not zero at their default values."""
+    """Whether the coefficient is a number, or one of parameters that is not zero at their default values.
+
+    One that a mode switches is no pivot: an ideal diode has the voltage `s` or ``1e-5 s``, and 0 with ``Ron=0``.
+    """
     if isolated.solvability != Solvability.PARAMETER:
         return isolated.solvability == Solvability.CONSTANT
+    if any(node.op == "where" for node in postorder((isolated.coefficient,))):
+        return False
     value = evaluate((isolated.coefficient,), lambda leaf: parameters[leaf.value], np)[0]
     return not abs(value) < ZERO_PIVOT
 

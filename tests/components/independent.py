@@ -174,11 +174,8 @@ def _largest(errors: Floats) -> float:
     return float(np.max(np.where(np.isnan(errors), np.inf, errors), initial=0.0))
 
 
-def residual(check: Check, without: str | None = None) -> tuple[float, str]:
-    """Largest residual of the flat equations relative to the size of their terms, and the equation with its place.
-
-    Those whose place has the text `without` do not count.
-    """
+def residual(check: Check) -> tuple[float, str]:
+    """Largest residual of the flat equations relative to the size of their terms, and the equation with its place."""
     equations, worst = check.equations, (0.0, "")
     for stretch in check.stretches:
         n = len(stretch.t)
@@ -186,8 +183,6 @@ def residual(check: Check, without: str | None = None) -> tuple[float, str]:
         left, sizes, _ = equations.evaluate.map(n)(stretch.t[None], stretch.v, modes)
         relative = np.abs(left.full()).max(axis=1) / (sizes.full().max(axis=1) + FLOOR)
         relative = np.where(np.isnan(relative), np.inf, relative)
-        if without is not None:
-            relative[[k for k, place in enumerate(equations.places) if without in place]] = 0.0
         k = int(np.argmax(relative))
         worst = max(worst, (float(relative[k]), equations.places[k]))
     return worst

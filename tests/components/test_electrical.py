@@ -197,3 +197,52 @@ def test_compare_transformers() -> None:
     solution = ac.compile(model).simulate(0.5, saveat=t, rtol=1e-9)
     for signal, values in zip(("basic.i1", "basic.i2", "inductor22.i"), wanted, strict=True):
         np.testing.assert_allclose(solution[signal], values, rtol=1e-6, atol=1e-7)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_an_ideal_diode_conducts_what_its_circuit_gives_it(engine: Any) -> None:
+    """Its curve parameter is iterated: as a difference of potentials over 1e-5 ohm, 2 uA would be lost in rounding."""
+    fired = electrical.Thyristor(vControl=start(5.0, fixed=True))
+    model = assemble(
+        "source.p - load.p", "load.n - triac.p", "source.n - triac.n - ground.p - gate.p", "gate.n - triac.g",
+        source=electrical.ConstantVoltage(V=50.0), load=electrical.Resistor(R=10.0), ground=electrical.Ground(),
+        triac=electrical.SimpleTriac(thyristor1=fired), gate=electrical.ConstantCurrent(I=0.0),
+    )  # fmt: skip
+    solution = ac.compile(model).simulate(1e-4, saveat=[0.0, 1e-4], engine=engine)
+    np.testing.assert_allclose(solution["triac.idealDiode1.s"], solution["triac.idealDiode1.i"], rtol=1e-9)
+    np.testing.assert_allclose(solution["triac.idealDiode1.i"], 1.986469e-6, rtol=1e-5)
+
+
+@pytest.mark.parametrize("approximation", ["Heidler", "DoubleExp"])
+def test_times_of_a_lightning_impulse(approximation: str) -> None:
+    """80 % of the height are passed in 0.8 T1; half of it is left at T2 after the virtual origin."""
+    T1, T2 = 1.2e-6, 50e-6
+    t = np.linspace(0.0, 80e-6, 8001)
+    impulse = electrical.LightningImpulse(approximation=approximation, amplitude=3.0, T1=T1, T2=T2)
+    share = np.asarray(ac.compile(impulse).simulate(t[-1], saveat=t, rtol=1e-9)["y"]) / 3.0
+    top = int(np.argmax(share))
+    tenth, most = np.interp([0.1, 0.9], share[:top], t[:top])
+    half = np.interp(0.5, share[top:][::-1], t[top:][::-1])
+    np.testing.assert_allclose([share[top], most - tenth, half - (tenth - 0.1 * T1)], [1.0, 0.8 * T1, T2], rtol=1e-3)
+
+
+def test_unknown_approximation_of_a_lightning_impulse() -> None:
+    with pytest.raises(ac.DeclarationError, match=r"approximation='Bolt' is not one of DoubleExp, Heidler"):
+        ac.compile(electrical.LightningImpulse(approximation="Bolt"))
+
+
+def test_regions_of_a_power_supply() -> None:
+    """Constant voltage, power and current, on the lines and the hyperbola that the parameters give."""
+    loads = [10.0, 2.6, 1.0, 0.3]
+    found: list[tuple[float, float]] = []
+    for R in loads:
+        model = assemble(
+            "supply.p - load.p", "supply.n - load.n - ground.p", load=electrical.Resistor(R=R),
+            supply=electrical.DCPowerSupply(Rcv=0.1, Gcc=0.1), ground=electrical.Ground(),
+        )  # fmt: skip
+        solution = ac.compile(model).simulate(1.0, saveat=[1.0])
+        found.append((float(solution["supply.v"][-1]), -float(solution["supply.i"][-1])))
+    for R, (v, i) in zip(loads, found, strict=True):
+        assert v == pytest.approx(R * i, rel=1e-9)
+        assert min(60.0 - 0.1 * i - v, 50.0 - 0.1 * v - i, 1200.0 - v * i) == pytest.approx(0.0, abs=1e-6)
+    assert [v * i == pytest.approx(1200.0) for v, i in found] == [False, True, True, False]

@@ -29,9 +29,6 @@ NOT_INTEGRATED = {
     "planar.sensors.AbsoluteVelocity", "planar.wheels.IdealRolling", "planar.sensors.AbsoluteAcceleration",
     "planar.gears.RigidNoLossExternal", "planar.gears.RigidNoLossInternal", "planar.wheels.DryFrictionBasedRolling",
 }  # fmt: skip
-# The current of a conducting ideal diode (1e-5 ohm) is a difference of potentials there, which are right to ten digits.
-# In the equations without those of the diodes it is another difference, and right.
-DIFFERENCES = {"electrical.thyristors.SimpleTriac": "idealDiode"}
 
 PARAMETERS = [
     pytest.param(cls, id=named(cls), marks=() if k % SPREAD == 0 else pytest.mark.slow)
@@ -49,9 +46,7 @@ def checks(cls: type[Component]) -> list[Check]:
 def test_example_agrees_with_independent_solution(cls: type[Component]) -> None:
     name, found = named(cls), checks(cls)
     for check in found:
-        if name in DIFFERENCES:
-            assert residual(check)[0] > RESIDUAL, f"{name} is precise now: take it out of the list"
-        worst, equation = residual(check, DIFFERENCES.get(name))
+        worst, equation = residual(check)
         assert worst <= RESIDUAL, f"residual {worst:.1e} of {equation}"
         assert not broken(check), broken(check)
     worst = max(_disagreement(check) for check in found)
@@ -70,7 +65,7 @@ def _disagreement(check: Check) -> float:
 
 def test_lists_name_components() -> None:
     names = set(map(named, CLASSES))
-    assert names >= NOT_INTEGRATED | DIFFERENCES.keys()
+    assert names >= NOT_INTEGRATED
 
 
 def test_wrong_solutions_are_seen() -> None:

@@ -81,11 +81,11 @@ class SimpleTriac(ConditionalHeatPort):
     `thyristor` conducts from n to p, `thyristor1` from p to n; see `Thyristor` for the parameters. The heat is that of
     its pins, ``LossPower = p.i p.v + n.i n.v + g.i g.v``.
 
-    >>> fired = Thyristor(vControl=start(5.0, fixed=True))
-    >>> model = assemble("source.p - load.p", "load.n - triac.p", "source.n - triac.n - ground.p", "gate.n - triac.g",
-    ...                  "gate.p - ground.p", triac=SimpleTriac(thyristor1=fired), gate=StepCurrent(I=0.0),
-    ...                  source=ConstantVoltage(V=50.0), load=Resistor(R=10.0), ground=Ground())
-    >>> close(run(model, at=[0.0, 1e-4])["load.i"], 50.0 / (10.0 + 0.04))  # it holds itself
+    >>> model = assemble("source.p - load.p", "load.n - triac.p", "source.n - triac.n - gate.p - ground.p",
+    ...                  "gate.n - triac.g", triac=SimpleTriac(), gate=StepCurrent(I=20e-3, startTime=2e-5),
+    ...                  source=ConstantVoltage(V=5.0), load=Resistor(R=10.0), ground=Ground())
+    >>> on = run(model, at=[1e-5, 5e-5])
+    >>> on["load.i"][0] < 1e-2 and close(on["load.i"][1], 5.0 / (10.0 + 0.04), 1e-3)
     True
 
     Source: Modelica.Electrical.Analog.Semiconductors.SimpleTriac.
