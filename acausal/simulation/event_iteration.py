@@ -342,6 +342,7 @@ class EventIteration(ModeSearch):
         first, due = self.next_sample(t0, at=True)
         intervals = {slot: interval for _, interval, slot in self.due}
         due = [slot for slot in due if first - t0 <= 1e-9 * intervals[slot]]
+        self.rounding = ROUNDING
         tried: dict[bytes, None] = {}
         changed: list[int] = []
         for _turn in range(TURNS):
@@ -357,6 +358,7 @@ class EventIteration(ModeSearch):
             raise SimulationError(
                 f"At the start the conditions and the equations contradict each other:\n{self._names(changed)}"
             )
+        self.rounding = 0.0
         point = Point(t0, values, p)
         self.moves = []
         seen = self._active(p)

@@ -60,6 +60,7 @@ class ModeSearch:
         self.hybrid, self.problem, self.equations = hybrid, problem, equations
         self.before: list[Any] = [np.zeros((len(t.forms), t.rows.size), bool) for t in hybrid.triggers]
         self.forced: list[int] = []
+        self.rounding = 0.0  # of conditions, at the start: what is zero by its equations has no sign, whatever is left
         self.largest: Floats = np.zeros(hybrid.flat.slots.count)
 
     def _conditions(self, point: Point) -> list[Any]:
@@ -70,6 +71,8 @@ class ModeSearch:
         changed: list[int] = []
         for piece, strict in self.hybrid.conditions(following=False):
             g = piece.values(point)[0]
+            if self.rounding:
+                g = np.where(np.abs(g) <= self.rounding * self._scale(piece, point), 0.0, g)
             new = ((g < 0.0) if strict else (g <= 0.0)).astype(float)
             if self.forced:  # what was found to switch may still be on its old side by rounding
                 stays = _among(piece.slots, self.forced)

@@ -14,7 +14,7 @@ import pytest
 
 import acausal as ac
 
-from . import msl_gravity, msl_signals, msl_slides
+from . import msl_gravity, msl_robot, msl_signals, msl_slides
 from .tube import assert_within
 
 MODELS: dict[str, Callable[[], ac.Component]] = {
@@ -24,6 +24,7 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
     "TranslationalEddyCurrentBrake": msl_slides.eddy_current_brake,
     "PointGravity": msl_gravity.point_gravity,
     "PointGravityWithPointMasses2": msl_gravity.point_gravity_with_point_masses2,
+    "OneAxis": msl_robot.one_axis,
 }
 
 

@@ -1,0 +1,39 @@
+"""Conditions whose sides are equal at the start: rounding decides nothing."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import acausal as ac
+from acausal import Component, Equations, connect, start
+from acausal.components import rotational
+
+
+class Resting(Component):
+    """A shaft whose speed at the start follows from others, which cancel: 0.1 + 0.2 - 0.3 is 5e-17."""
+
+    motor: rotational.Inertia = rotational.Inertia(J=1.0, phi=start(0.0, fixed=True))
+    bearing: rotational.BearingFriction = rotational.BearingFriction(tau_pos=((0.0, 1.0), (1.0, 1.0)))
+    shaft: rotational.Spring = rotational.Spring(c=10.0)
+    load: rotational.Inertia = rotational.Inertia(J=2.0, w=start(0.0, fixed=True), a=start(0.25, fixed=True))
+
+    def equations(self) -> Equations:
+        yield connect(self.motor.flange_a, self.bearing.flange_a)
+        yield connect(self.bearing.flange_b, self.shaft.flange_a)
+        yield connect(self.shaft.flange_b, self.load.flange_a)
+
+    def initial_equations(self) -> Equations:
+        yield self.motor.w * 3.0 == 3.0 * (0.1 + 0.2 - self.load.w) - 0.9
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_what_rests_but_for_rounding_is_stuck(engine: Any) -> None:
+    solution = ac.compile(Resting()).simulate(0.5, saveat=[0.0, 0.25, 0.5], rtol=1e-9, engine=engine)
+    assert abs(solution["motor.w"][0]) < 1e-15
+    assert_allclose(solution["bearing.mode"], 0.0)
+    w = np.sqrt(5.0)
+    assert_allclose(solution["load.phi"], -0.05 * np.cos(w * np.array([0.0, 0.25, 0.5])), atol=1e-7)
