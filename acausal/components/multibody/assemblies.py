@@ -192,9 +192,9 @@ class JointUSP(PartialFromUniversal, PartialToPrismatic):
     carries frame_ib at the slider and frame_im at the ball joint. `axis` drives the slider.
 
     >>> model = assemble("world.frame_b - crank.frame_a", "crank.frame_b - arm.frame_a", "arm.frame_b - loop.frame_a",
-    ...     "world.frame_b - loop.frame_b", "loop.frame_ib - load.frame_a", world=ac.inner(World(g=0.0)),
+    ...     "world.frame_b - loop.frame_b", "loop.frame_ib - load.frame_a", "crank.frame_b - wheel.frame_a",
     ...     crank=Revolute(phi=start(0.5, fixed=True), w=start(1.0, fixed=True)), load=Body(),
-    ...     wheel=Body(I_33=100.0, m=0.0), arm=FixedTranslation(r=(0.3, 0.0, 0.0)),
+    ...     wheel=Body(I_33=100.0, m=0.0), arm=FixedTranslation(r=(0.3, 0.0, 0.0)), world=ac.inner(World(g=0.0)),
     ...     loop=JointUSP(rRod1_ia=(1.0, 0.0, 0.0), rRod2_ib=(0.0, 0.0, 0.0), n_b=(1.0, 0.0, 0.0), s_guess=1.0))
     >>> solution = run(model, at=[0.0])  # a slider crank
     >>> close(solution["loop.prismatic.s"], [0.3 * np.cos(0.5) + np.sqrt(1.0 - (0.3 * np.sin(0.5)) ** 2)])
