@@ -217,3 +217,15 @@ def test_body_without_weight() -> None:
     )  # fmt: skip
     model = assemble(planarWorld=inner(planar.PlanarWorld()), stone=stone)
     assert_allclose(ac.compile(model).simulate(1.0, saveat=[1.0])["stone.r[2]"], 2.0, rtol=1e-9)
+
+
+@pytest.mark.parametrize(("out", "wanted"), [("", [1.0, 2.0]), ("frame_a", [2.0, -1.0])])
+def test_transformed_vector(out: str, wanted: list[float]) -> None:
+    """By default it stays in its frame."""
+    turn = planar.TransformAbsoluteVector(frame_r_in="world", frame_r_out=out)
+    model = assemble(
+        "wall.frame - turn.frame_a", "x.y - turn.r_in[0]", "y.y - turn.r_in[1]", "z.y - turn.r_in[2]", turn=turn,
+        wall=planar.Fixed(phi=np.pi / 2), x=blocks.Constant(k=1.0), y=blocks.Constant(k=2.0), z=blocks.Constant(k=3.0),
+    )  # fmt: skip
+    solution = ac.compile(model).simulate(1.0, saveat=[1.0])
+    assert_allclose([solution[f"turn.r_out[{k}]"][0] for k in (1, 2, 3)], [*wanted, 3.0], atol=1e-12)

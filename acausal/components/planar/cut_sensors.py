@@ -111,13 +111,13 @@ class Power(PartialTwoFrames):
 
 
 class PartialTransform(PartialResolved, partial=True):
-    """The vector `r_in`, resolved in the frame `frame_r_in`, as `r_out` in the frame `frame_r_out`.
+    """The vector `r_in` of the frame `frame_r_in`, as `r_out` in the frame `frame_r_out` (the same by default).
 
     Source: PlanarMechanics.Sensors.TransformAbsoluteVector.
     """
 
     frame_r_in: str = "frame_a"
-    frame_r_out: str = "frame_a"
+    frame_r_out: str = ""
     r_in: Vector = Vector(Input(doc="vector in the frame frame_r_in"))
     r_out: Vector = Vector(Output(doc="the same in the frame frame_r_out"))
 
@@ -129,7 +129,8 @@ class PartialTransform(PartialResolved, partial=True):
     def equations(self) -> Equations:
         yield from super().equations()
         given = vector(self.r_in[0], self.r_in[1])
-        yield self.r_out == (*self.from_world(self.to_world(given, self.frame_r_in), self.frame_r_out), self.r_in[2])
+        wanted = self.frame_r_out or self.frame_r_in
+        yield self.r_out == (*self.from_world(self.to_world(given, self.frame_r_in), wanted), self.r_in[2])
 
 
 class TransformAbsoluteVector(PartialTransform, PartialAbsoluteSensor):
