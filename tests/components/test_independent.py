@@ -28,6 +28,7 @@ NOT_INTEGRATED = {
     "hydraulic.cylinders.Chamber", "multibody.free_joints.RevolutePlanarLoopConstraint", "planar.joints.Revolute",
     "planar.sensors.AbsoluteVelocity", "planar.wheels.IdealRolling", "planar.sensors.AbsoluteAcceleration",
     "planar.gears.RigidNoLossExternal", "planar.gears.RigidNoLossInternal", "planar.wheels.DryFrictionBasedRolling",
+    "planar.to_multibody.PlanarToMultiBody",
 }  # fmt: skip
 
 PARAMETERS = [

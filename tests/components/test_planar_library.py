@@ -229,3 +229,30 @@ def test_transformed_vector(out: str, wanted: list[float]) -> None:
     )  # fmt: skip
     solution = ac.compile(model).simulate(1.0, saveat=[1.0])
     assert_allclose([solution[f"turn.r_out[{k}]"][0] for k in (1, 2, 3)], [*wanted, 3.0], atol=1e-12)
+
+
+def test_pendulum_in_space_on_a_cart_in_the_plane() -> None:
+    """What hangs on the cart swings in all directions: energy and momentum along x stay, the plane carries the rest."""
+    model = assemble(
+        "wall.frame - guide.frame_a", "guide.frame_b - cart.frame_a - lift.frame_a", "lift.frame_b - ball.frame_a",
+        "ball.frame_b - bob.frame_a", planarWorld=inner(planar.PlanarWorld()), world=inner(multibody.World(g=9.81)),
+        wall=planar.Fixed(), cart=planar.Body(m=2.0), lift=planar.PlanarToMultiBody(zPosition=0.5),
+        guide=planar.Prismatic(s=start(0.0, fixed=True), v=start(0.3, fixed=True)), ball=multibody.Spherical(),
+        bob=multibody.Body(m=1.5, r_CM=(0.0, -0.8, 0.0), I_11=0.01, I_22=0.01, I_33=0.01, angles_fixed=True,
+            angles_start=(0.7, 0.0, 0.4), w_0_fixed=True, w_0_start=(0.5, 0.0, 1.0)),
+    )  # fmt: skip
+    t = np.linspace(0.0, 3.0, 31)
+    solution = ac.compile(model).simulate(3.0, saveat=t, rtol=1e-9)
+    T = np.array([[solution[f"bob.frame_a.R.T[{i},{j}]"] for j in (1, 2, 3)] for i in (1, 2, 3)])
+    w = np.array([solution[f"bob.frame_a.R.w[{i}]"] for i in (1, 2, 3)])
+    arm = np.array([0.0, -0.8, 0.0])
+    swing = np.einsum("jit,jt->it", T, np.cross(w, arm[:, None], axis=0))  # in the world frame
+    v = swing + np.array([solution["cart.v[1]"], solution["cart.v[2]"], 0.0 * t])
+    height = np.einsum("jit,j->it", T, arm)[1]
+    energy = 0.75 * (v**2).sum(axis=0) + 0.005 * (w**2).sum(axis=0) + 1.5 * 9.81 * height
+    energy += np.asarray(solution["cart.v[1]"]) ** 2
+    assert_allclose(energy, energy[0], atol=1e-6)
+    momentum = 2.0 * np.asarray(solution["cart.v[1]"]) + 1.5 * v[0]
+    assert_allclose(momentum, momentum[0], atol=1e-7)
+    assert np.ptp(v[2]) > 0.5 and np.ptp(solution["lift.fz"]) > 1.0
+    assert_allclose(solution["bob.frame_a.r_0[3]"], 0.5, atol=1e-12)

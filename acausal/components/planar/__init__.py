@@ -61,6 +61,7 @@ from .sensors import RelativeVelocity as RelativeVelocity
 from .sources import QuadraticSpeedDependentForce as QuadraticSpeedDependentForce
 from .sources import RelativeForce as RelativeForce
 from .sources import WorldForce as WorldForce
+from .to_multibody import PlanarToMultiBody as PlanarToMultiBody
 from .vehicle import AirResistanceLongitudinal as AirResistanceLongitudinal
 from .vehicle import DifferentialGear as DifferentialGear
 from .wheels import DryFrictionBasedRolling as DryFrictionBasedRolling
