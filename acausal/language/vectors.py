@@ -53,7 +53,7 @@ class Quantities:
         if not isinstance(element, Declaration):
             raise DeclarationError(
                 f"{type(self).__name__}({element!r}): the first argument declares one element, as in "
-                f"`Vector(Parameter(unit=\"m\"))`; a vector of expressions is made by `vector(a, b, c)`"
+                f'`Vector(Parameter(unit="m"))`; a vector of expressions is made by `vector(a, b, c)`'
             )
         self.elements = tuple(copy.copy(element) for _ in range(size))
         if values is None:
@@ -164,10 +164,16 @@ class Vector(Quantities):
         values: default of a parameter or start values of a variable, one an element; a vector expression of parameters
             makes dependent parameters.
         size: number of elements, or the name of the structural parameter or property of the class that is that number;
-            `values` is then another vector of the same size, or None.
+            `values` is then another vector of the same size, or None. By default the number of values, 3 without.
     """
 
-    def __init__(self, element: Declaration, values: Vector | Elements | None = None, *, size: int | str = 3) -> None:
+    def __init__(
+        self, element: Declaration, values: Vector | Elements | None = None, *, size: int | str | None = None
+    ) -> None:
+        if size is None and isinstance(values, Vector):
+            size = values.size
+        elif size is None:
+            size = 3 if values is None else len(_items(values, "a vector"))
         self.size, self.element, self.values = size, element, values
         if isinstance(size, int):
             self._declare(element, values, size)
@@ -228,10 +234,12 @@ class Matrix(Quantities):
     Args:
         element: the declaration that is repeated.
         values: default of a parameter or start values of a variable, a sequence of rows.
-        shape: numbers of rows and columns.
+        shape: numbers of rows and columns; as the values have them, 3 and 3 without any.
     """
 
-    def __init__(self, element: Declaration, values: Any = None, *, shape: tuple[int, int] = (3, 3)) -> None:
+    def __init__(self, element: Declaration, values: Any = None, *, shape: tuple[int, int] | None = None) -> None:
+        if shape is None:
+            shape = (3, 3) if values is None else _shape(values)
         self.shape = shape
         self._declare(element, values, shape[0] * shape[1])
 
@@ -240,8 +248,7 @@ class Matrix(Quantities):
         return (f"{i + 1},{j + 1}" for i in range(self.shape[0]) for j in range(self.shape[1]))
 
     def _flat(self, values: Any) -> tuple[Any, ...]:
-        rows = values.rows() if isinstance(values, Matrix) else _items(values, "a matrix")
-        items = [_items(row, "a row of a matrix") for row in rows]
+        items = _rows(values)
         if len(items) != self.shape[0] or any(len(row) != self.shape[1] for row in items):
             where = f"`{self.name}`" if self.name else "a matrix"
             raise DeclarationError(f"{where} has {self.shape[0]} rows of {self.shape[1]} elements, not {items!r}")
@@ -252,8 +259,12 @@ class Matrix(Quantities):
         n = self.shape[1]
         return [vector(*self.elements[i * n : (i + 1) * n]) for i in range(self.shape[0])]
 
-    def __getitem__(self, index: int) -> Vector:
-        return self.rows()[index]
+    @overload
+    def __getitem__(self, index: int) -> Vector: ...
+    @overload
+    def __getitem__(self, index: tuple[int, int]) -> Expr: ...
+    def __getitem__(self, index: int | tuple[int, int]) -> Vector | Expr:
+        return self.rows()[index[0]][index[1]] if isinstance(index, tuple) else self.rows()[index]
 
     def transpose(self) -> Matrix:
         """Rows and columns exchanged."""
@@ -274,6 +285,20 @@ class Matrix(Quantities):
 
     def __repr__(self) -> str:
         return f"matrix({', '.join(repr(row) for row in self.rows())})"
+
+
+def _rows(values: Any) -> list[tuple[Any, ...]]:
+    """The rows of a matrix or of a sequence of sequences."""
+    rows = values.rows() if isinstance(values, Matrix) else _items(values, "a matrix")
+    return [_items(row, "a row of a matrix") for row in rows]
+
+
+def _shape(values: Any) -> tuple[int, int]:
+    """Numbers of rows and columns of the values of a matrix."""
+    rows = _rows(values)
+    if not rows or any(len(row) != len(rows[0]) for row in rows):
+        raise DeclarationError(f"a matrix has rows of the same length, not {rows!r}")
+    return len(rows), len(rows[0])
 
 
 def _items(values: Any, what: str) -> tuple[Any, ...]:

@@ -48,7 +48,7 @@ def explain(
     dx, r = lowered.derivatives(t, x, w, p)
     found = _nonfinite(system, dx, r)
     if found:
-        return "\n".join([head, f"{found} there.", *_equation(system, t, x, w, p), counts])
+        return "\n".join([head, f"{found} there.", *_equation(system, lowered, t, x, w, p), counts])
 
     lines = [head, *_fastest(system, np.asarray(x), np.asarray(dx), lowered.x_nominal)]
     if result == "dt_min_reached":
@@ -57,7 +57,7 @@ def explain(
         beyond = t + step, x + step * dx, w, p
         found = _nonfinite(system, *lowered.derivatives(*beyond))
         if found:
-            lines += [f"{found} just beyond this point.", *_equation(system, *beyond)]
+            lines += [f"{found} just beyond this point.", *_equation(system, lowered, *beyond)]
         lines.append(
             "Often: a square root or a division that leaves its domain, a solution that grows without bound, a "
             "discontinuity that should be an event, or a variable that matters while it is far below its absolute "
@@ -96,9 +96,11 @@ def _singular(system: Any, lowered: Lowered, t: float, x: Any, w: Any, p: Any) -
     return [head, *block_equations(system, unknowns)]
 
 
-def _equation(system: Any, t: float, x: Any, w: Any, p: Any) -> list[str]:
+def _equation(system: Any, lowered: Any, t: float, x: Any, w: Any, p: Any) -> list[str]:
     """What the system itself says about a non-finite value, if it can say anything."""
     diagnose = getattr(system, "diagnose_nonfinite", None)
+    if isinstance(p, tuple):  # of a driven system: the numbers of its inputs go along
+        p = lowered.at(t, p)
     text = diagnose(t, x, w, p) if diagnose is not None else None
     return [text] if text else []
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
-from acausal.errors import SimulationError, UnknownNameError, nearest
+from acausal.errors import UnknownNameError, nearest
 
 from .cache import cache_of
 from .lowered import Lowered
@@ -70,7 +69,6 @@ def drive(system: Any, inputs: Mapping[str, Any]) -> tuple[DrivenLowered, tuple[
 
     Raises:
         UnknownNameError: the model has no such input.
-        SimulationError: a value is none of these.
     """
     names = tuple(system.input_names)
     lowered = system.lowered
@@ -84,7 +82,7 @@ def drive(system: Any, inputs: Mapping[str, Any]) -> tuple[DrivenLowered, tuple[
             known = nearest(name, names) or f" Its inputs are: {', '.join(names) or 'none'}."
             raise UnknownNameError(f"The model has no input `{name}`.{known}")
         places.append(names.index(name) - len(names) - held)
-        signal, numbers = _signal(name, value)
+        signal, numbers = _signal(value)
         signals.append(signal)
         data.append(numbers)
     key = ("driven", tuple(places), tuple(signals))
@@ -94,23 +92,14 @@ def drive(system: Any, inputs: Mapping[str, Any]) -> tuple[DrivenLowered, tuple[
     return cache[key], tuple(data)
 
 
-def _signal(name: str, value: Any) -> tuple[Callable[..., Any], Any]:
+def _signal(value: Any) -> tuple[Callable[..., Any], Any]:
     """The function of an input and the numbers it takes: those may change without compiling anew."""
     if callable(value):
         return value, None
-    if isinstance(value, (tuple, list)) and len(value) == 2 and np.ndim(value[0]) == 1:
+    if isinstance(value, (tuple, list)):
         times, values = (jnp.asarray(v, float) for v in value)
-        if times.shape != values.shape or times.shape[0] < 1:
-            raise SimulationError(
-                f"The table of the input `{name}` has times of shape {times.shape} and values of shape {values.shape}; "
-                "they must be vectors of the same length."
-            )
         return _table, (times, values)
-    if isinstance(value, jax.Array) or np.isscalar(value) or np.ndim(value) == 0:
-        return _constant, jnp.asarray(value, float)
-    raise SimulationError(
-        f"The input `{name}` is a {type(value).__name__}; give a number, a pair (times, values), or a function of time."
-    )
+    return _constant, jnp.asarray(value, float)
 
 
 def _constant(t: Any, value: Any) -> Any:

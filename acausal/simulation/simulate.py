@@ -245,8 +245,8 @@ def _output(saveat: Any, t0: Any, t1: Any) -> tuple[Any, Any]:
         return saveat.subs.ts, ("diffrax", saveat.subs.t0, saveat.subs.t1, saveat.subs.steps)
     if saveat is None:
         return None, ("points", POINTS)
-    if isinstance(saveat, int):
-        return None, ("points", saveat)
+    if isinstance(saveat, (int, np.integer)):
+        return None, ("points", int(saveat))
     return jnp.asarray(saveat, float), ("times",)
 
 

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import math
+import re
+from functools import cache
 from pathlib import Path
 from textwrap import dedent
+from typing import Any
 
+import jax.numpy as jnp
+import numpy as np
 import pytest
 
 import acausal as ac
@@ -70,6 +76,69 @@ def test_unknown_names(name: str, tmp_path: Path) -> None:
     text, words = UNKNOWN[name]
     error = error_of(tmp_path, text, ac.UnknownNameError, words)
     assert isinstance(error, KeyError)
+
+
+class Lag(ac.Component):
+    u: ac.Input = ac.Input()
+    x: ac.Variable = ac.Variable(start=1.0, fixed=True)
+    tau: ac.Parameter = ac.Parameter(1.0)
+    many: ac.Vector = ac.Vector(ac.Parameter(), (1.0, 2.0))
+
+    def equations(self) -> ac.Equations:
+        yield ac.der(self.x) == (self.u - self.x) / self.tau
+
+
+ARGUMENTS: dict[str, tuple[dict[str, Any], str]] = {
+    "a text for a parameter": ({"parameters": {"tau": "2.0"}}, "parameters={'tau': ...}) is '2.0'; give a number"),
+    "nothing for a parameter": ({"parameters": {"tau": None}}, "parameters={'tau': ...}) is None; give a number"),
+    "two values for one parameter": ({"parameters": {"tau": [1, 2]}}, "values of shape (2,), but has one value"),
+    "three values for two": ({"parameters": {"many": [1, 2, 3]}}, "values of shape (3,), but has shape (2,)"),
+    "pairs": ({"parameters": [("tau", 1.0)]}, "`parameters` is a list; give a dict"),
+    "an object as a name": ({"parameters": {Lag().tau: 1.0}}, "the key Expr(tau); the keys are dotted names"),
+    "a start that is no number": ({"initial": {"x": np.nan}}, "initial={'x': ...}) is nan; a start value is finite"),
+    "an input as a start": ({"initial": {"u": 1.0}}, "`u` is an input: its value has its place in simulate(inputs="),
+    "text as an input": ({"inputs": {"u": "abc"}}, "input `u` is 'abc'; give a number, a pair (times, values)"),
+    "a table that does not fit": (
+        {"inputs": {"u": ([0, 1], [0, 1, 2])}},
+        "times of shape (2,) and values of shape (3,)",
+    ),
+    "times that go back": ({"inputs": {"u": ([1, 0], [0, 1])}}, "times of the input `u` must increase"),
+    "a function without time": ({"inputs": {"u": lambda: 1.0}}, "`u` is a function that does not take the time alone"),
+    "a function of math": ({"inputs": {"u": lambda t: math.sin(t)}}, "JAX cannot follow"),
+    "a function with a vector": ({"inputs": {"u": lambda t: jnp.ones(2) * t}}, "an array of shape (2,), not a number"),
+    "no end": ({"t1": np.inf}, "`t1` is inf; give a finite time in seconds"),
+    "text as an end": ({"t1": "1"}, "`t1` is '1'; give a finite time in seconds"),
+    "negative tolerance": ({"rtol": -1e-6}, "`rtol` is -1e-06; it cannot be negative"),
+    "no tolerance": ({"rtol": 0.0}, "`rtol` and `atol` are both 0"),
+    "a step back": ({"solver": "rk4", "dt": -0.1}, "`dt` is -0.1; it cannot be negative"),
+    "no step": ({"solver": "rk4", "dt": 0.0}, "`dt` = 0: a step takes time"),
+    "no steps": ({"max_steps": 0}, "`max_steps` is 0, not a number of steps"),
+    "output beyond the end": ({"saveat": [0.5, 2.0]}, "`saveat` has the time 2 s, outside of the run from 0 s to 1 s"),
+    "output that goes back": ({"saveat": [0.5, 0.2]}, "`saveat` has the time 0.2 s behind 0.5 s"),
+    "no output": ({"saveat": []}, "`saveat` is []; give a number of output times"),
+    "an interval of output": ({"saveat": 0.1}, "`saveat` is 0.1; give a number of output times (an int)"),
+    "no solver": ({"solver": "cvode"}, "There is no solver 'cvode'; there are 'rodas5p', 'rk4', 'adams'"),
+    "no events": ({"events": "no"}, "`events` is 'no'; give True, False, or a `diffrax.Event`"),
+}
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize("name", ARGUMENTS)
+def test_arguments_are_looked_at_before_the_run(name: str, engine: Any) -> None:
+    options, words = ARGUMENTS[name]
+    with pytest.raises(ac.AcausalError, match=re.escape(words)):
+        lag().simulate(**{"t1": 1.0, "engine": engine, **options})
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_a_driven_run_that_fails_names_its_equation(engine: Any) -> None:
+    with pytest.raises(ac.SimulationError, match=re.escape("der(x) = (u - x)/tau")):
+        lag().simulate(1.0, inputs={"u": 2.0}, parameters={"tau": 0.0}, engine=engine)
+
+
+@cache
+def lag() -> ac.System:
+    return ac.compile(Lag())
 
 
 def test_parameter_without_value(tmp_path: Path) -> None:

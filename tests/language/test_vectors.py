@@ -113,6 +113,21 @@ def test_arithmetic() -> None:
     assert [e.value for row in (turn @ turn.transpose()).rows() for e in row] == [1, 0, 0, 0, 1, 0, 0, 0, 1]
 
 
+def test_values_give_the_size() -> None:
+    class Plane(Component):
+        v: Vector = Vector(Parameter(), (3.0, 2.0))
+        M: Matrix = Matrix(Parameter(), ((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)))
+        y: Variable = Variable()
+
+        def equations(self) -> Equations:
+            yield self.y == self.v[1] * self.M[1, 2] + self.M[0][1]
+
+    assert Plane.v.size == 2 and Plane.M.shape == (2, 3)
+    assert ac.compile(Plane()).simulate(t1=1.0)["y"][-1] == 14.0
+    with pytest.raises(ac.DeclarationError, match="rows of the same length"):
+        Matrix(Parameter(), ((1.0,), (2.0, 3.0)))
+
+
 def test_wrong_numbers_of_elements_are_named() -> None:
     with pytest.raises(ac.DeclarationError, match=re.escape("`Particle(a=...)`: `a` has 3 elements, not 2: (1.0,")):
         Particle(a=(1.0, 2.0))

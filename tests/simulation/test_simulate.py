@@ -191,8 +191,6 @@ def test_inputs():
     assert np.allclose(table["x"], table.t - 1 + np.exp(-table.t), atol=1e-8)
     with pytest.raises(UnknownNameError, match="`u`"):
         simulate(system, 1.0, inputs={"uu": 1.0})
-    with pytest.raises(SimulationError, match="same length"):
-        simulate(system, 1.0, inputs={"u": ([0.0, 1.0], [1.0])})
 
 
 def test_sparse_is_chosen_for_large_systems():
