@@ -536,12 +536,14 @@ def _located(generator: types.GeneratorType[Any, Any, Any], cls: type[Component]
     try:
         yield from generator
     except (TypeError, ZeroDivisionError) as error:
-        if isinstance(error, AcausalError):
-            raise
         package = os.path.dirname(os.path.dirname(__file__))
         frames = [f for f in traceback.extract_tb(error.__traceback__) if not f.filename.startswith(package)]
         place = f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
         line = f"\n    {frames[-1].line}" if frames and frames[-1].line else ""
+        if type(error) is DeclarationError and place.strip(" ()") not in str(error):
+            raise DeclarationError(f"{error}{place}{line}") from error
+        if isinstance(error, AcausalError):
+            raise
         raise DeclarationError(f"in `{cls.__name__}.{method}`{place}: {error}{line}") from error
 
 

@@ -44,7 +44,15 @@ def statements(item: When, template: Template, origin: Origin) -> tuple[list[Tem
 
 def _reinits(branch: Branch, template: Template, origin: Origin) -> list[Reinit]:
     given = [Reinit(t, v) for t, v in branch.values if _kind(template, t, origin) != Kind.DISCRETE]
-    return [*given, *branch.reinits]
+    found = [*given, *branch.reinits]
+    given_twice = [t for k, (t, _) in enumerate(branch.values) if any(t is u for u, _ in branch.values[:k])]
+    given_twice += [r.target for k, r in enumerate(found) if any(r.target is q.target for q in found[:k])]
+    for target in given_twice[:1]:
+        raise DeclarationError(
+            f"`when` gives `{target}` two new values at the same moment: leave one of them, or say with `elsewhen` or "
+            f"`where` which one counts ({origin})"
+        )
+    return found
 
 
 def _reinit(item: Reinit, active: Expr, template: Template, origin: Origin) -> TemplateAction:

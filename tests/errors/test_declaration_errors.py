@@ -317,6 +317,56 @@ CASES = {
         """,
         ["refers to `V`, which is not a field of that class"],
     ),
+    "two new values in one when": (
+        """
+        class M(Component):
+            x: Variable = Variable(start=-1.0, fixed=True)
+
+            def equations(self):
+                yield der(self.x) == 1.0
+                yield when(self.x > 0, reinit(self.x, 3.0), {self.x: 4.0})  # HERE
+
+        ac.compile(M())
+        """,
+        ["`when` gives `x` two new values at the same moment", "`elsewhen`"],
+    ),
+    "one discrete variable twice in one when": (
+        """
+        class M(Component):
+            d: Discrete = Discrete()
+
+            def equations(self):
+                yield when(ac.time > 1, {self.d: 3.0}, {self.d: 4.0})  # HERE
+
+        ac.compile(M())
+        """,
+        ["`when` gives `d` two new values at the same moment"],
+    ),
+    "when in when": (
+        """
+        class M(Component):
+            d: Discrete = Discrete()
+
+            def equations(self):
+                yield when(ac.time > 1, when(ac.time > 2, {self.d: 4.0}))  # HERE
+
+        ac.compile(M())
+        """,
+        ["when(condition, ...) takes dicts {variable: value}, reinit(...) and terminate(...)"],
+    ),
+    "index beyond an array": (
+        """
+        class M(Component):
+            r: Array[Resistor] = Array(Resistor(), 3)
+            g: Ground = Ground()
+
+            def equations(self):
+                yield connect(self.r[3].p, self.g.p)  # HERE
+
+        ac.compile(M())
+        """,
+        ["index 3 of component array `r` is outside 0..2"],
+    ),
     "connect in initial equations": (
         """
         class M(Component):
