@@ -75,4 +75,4 @@ def _text(end: Connector | Expr | Vector) -> str:
 
 
 def _name(kind: type[Connector] | None) -> str:
-    return "a signal" if kind is None else f"connector `{kind.__name__}`"
+    return "a signal" if kind is None else f"connector `{kind.__name__}` ({', '.join(kind._declarations)})"

@@ -106,7 +106,8 @@ class _Text:
         if len(components) > 1 and len(components) <= 4 and len(names) == 1:
             who = " and ".join(f"`{c or self.flat.model_name}`" for c in components)
             self.tips.append(
-                f"{who} both determine `{names[0]}`, like two ideal sources in parallel: put a component between them "
+                f"{who} both determine `{names[0]}`, like two ideal voltage sources in parallel, two current sources "
+                "in series, or two outputs that are connected: put a component between them that takes the difference "
                 "(a resistance), or remove one"
             )
 

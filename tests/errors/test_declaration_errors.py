@@ -467,7 +467,22 @@ CONNECT = {
 
         ac.compile(M())
         """,
-        ["connector `Pin` and a signal are unlike"],
+        ["connector `Pin` (v, i) and a signal are unlike"],
+    ),
+    "connectors of one name": (
+        """
+        from acausal.components import rotational, translational
+
+        class M(Component):
+            m: rotational.Inertia = rotational.Inertia(J=1.0)
+            s: translational.Spring = translational.Spring(c=1.0)
+
+            def equations(self):
+                yield connect(self.m.flange_b, self.s.flange_a)  # HERE
+
+        ac.compile(M())
+        """,
+        ["connector `Flange` (phi, tau) and connector `Flange` (s, f) are unlike"],
     ),
     "slices of different length": (
         """

@@ -32,6 +32,7 @@ CASES = {
             "a.v = b.V",
             "Under-determined: 1 unknown (a.i) in no equation",
             "`a` and `b` both determine `a.v`",
+            "two current sources in series, or two outputs that are connected",
             "put a component between them",
         ],
     ),
