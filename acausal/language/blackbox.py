@@ -6,7 +6,9 @@ import itertools
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from ..errors import DeclarationError
 from ..symbolic.expr import Expr, Operand, as_expr, intern_node
+from .instance import call_site
 
 
 class BlackBox:
@@ -71,12 +73,14 @@ def table(x: Sequence[float], y: Sequence[float], *, name: str = "table") -> Bla
     """Piecewise linear interpolation of (x, y), constant outside; `x` must increase.
 
     Raises:
-        ValueError: lengths differ, fewer than two points, or x does not increase.
+        DeclarationError: lengths differ, fewer than two points, or x does not increase.
     """
     if len(x) != len(y) or len(x) < 2:
-        raise ValueError(f"table needs as many y as x and at least two points, got {len(x)} and {len(y)}")
+        raise DeclarationError(
+            f"table needs as many y as x and at least two points, got {len(x)} and {len(y)} {call_site()}"
+        )
     if any(not b > a for a, b in itertools.pairwise(x)):
-        raise ValueError("table: x must increase strictly")
+        raise DeclarationError(f"table: x must increase strictly {call_site()}")
     return Table(tuple(map(float, x)), tuple(map(float, y)), name)
 
 

@@ -68,6 +68,15 @@ class Shared:
     """Wrapper of an `inner` or `outer` component."""
 
     def __init__(self, component: Any, role: str) -> None:
+        if isinstance(component, Shared):
+            raise DeclarationError(
+                f"{role}({component.role}(...)): a field is either `inner` or `outer`; what a component takes from "
+                f"outside, those inside of it take from there too {call_site()}"
+            )
+        if isinstance(component, type):
+            raise DeclarationError(
+                f"{role}({component.__name__}): give a component, {role}({component.__name__}()) {call_site()}"
+            )
         self.component = component
         self.role = role
 

@@ -367,6 +367,26 @@ CASES = {
         """,
         ["index 3 of component array `r` is outside 0..2"],
     ),
+    "inner and outer at once": (
+        """
+        class M(Component):
+            g: Ground = ac.inner(ac.outer(Ground()))  # HERE
+        """,
+        ["inner(outer(...)): a field is either `inner` or `outer`"],
+    ),
+    "a class as inner": (
+        """
+        class M(Component):
+            g: Ground = ac.inner(Ground)  # HERE
+        """,
+        ["inner(Ground): give a component, inner(Ground())"],
+    ),
+    "a table that goes back": (
+        """
+        ac.table([0.0, 2.0, 1.0], [0.0, 1.0, 2.0])  # HERE
+        """,
+        ["table: x must increase strictly"],
+    ),
     "connect in initial equations": (
         """
         class M(Component):

@@ -105,7 +105,7 @@ def test_tables() -> None:
         ([0.0, 1.0], [0.0], "as many y as x"),
         ([0.0, 0.0], [0.0, 1.0], "increase"),
     ):
-        with pytest.raises(ValueError, match=words):
+        with pytest.raises(ac.DeclarationError, match=words):
             ac.table(x, y)
 
 
