@@ -116,6 +116,11 @@ class Hybrid:
         """Where the slots are among the parameters."""
         return slice(self.first, self.first + self.flat.slots.count)
 
+    @staticmethod
+    def steps(piece: Piece, point: Point) -> Floats:
+        """Values of the slots of one of `floors`: the integer above."""
+        return np.floor(piece.values(point)[0]) + 1.0
+
     def moves(self, ids: Ints) -> Bools:
         """Which of these variables move between events."""
         kinds = self.flat.kind
@@ -214,7 +219,7 @@ def make_hybrid(flat: FlatModel, representative: Ints, sign: Ints) -> Hybrid | N
             root_slots.append(at)
             root_strict.append(np.full(len(at), strict[-1]))
         elif form.op == "floor":
-            below, above = add(form.args[0], neg(forms[0])), add(forms[0], neg(form.args[0]), neg(ONE))
+            below, above = add(form.args[0], neg(forms[0]), neg(ONE)), add(forms[0], neg(form.args[0]))
             for g, is_strict in ((below, False), (above, True)):
                 families.append(Family(g, family.var_rows, family.par_rows, family.source, family.ordinal))
                 root_slots.append(np.full(len(at), -1))

@@ -164,11 +164,16 @@ class _Rows:
 
     def _rounded(self, op: str, args: tuple[Expr, ...]) -> Expr:
         if op == "floor":
-            return self._slot(intern_node("floor", args))
+            return self._floor(args[0])
         if op == "ceil":
-            return neg(self._slot(intern_node("floor", (neg(args[0]),))))
+            return neg(self._floor(neg(args[0])))
         a, b = args
-        return add(a, neg(mul(b, self._slot(intern_node("floor", (div(a, b),))))))
+        return add(a, neg(mul(b, self._floor(div(a, b)))))
+
+    def _floor(self, x: Expr) -> Expr:
+        # its slot holds the integer above: what is left of x to the next step has the right sign however small it is,
+        # where x + 1 is 1 already for an x just below zero
+        return add(self._slot(intern_node("floor", (x,))), neg(ONE))
 
     def _slot(self, form: Expr) -> Expr:
         family = self.origin

@@ -147,7 +147,7 @@ class EventIteration(ModeSearch):
         self.forced = changed = modes.tolist()
         if (slots < 0).any():
             for piece in self.hybrid.floors:
-                changed += self._put(p, piece.slots, np.floor(piece.values(left)[0]))
+                changed += self._put(p, piece.slots, self.hybrid.steps(piece, left))
         return changed
 
     def _iterate(self, t: float, z: Floats, p: Floats) -> Outcome:
@@ -343,21 +343,7 @@ class EventIteration(ModeSearch):
         intervals = {slot: interval for _, interval, slot in self.due}
         due = [slot for slot in due if first - t0 <= 1e-9 * intervals[slot]]
         self.rounding = ROUNDING
-        tried: dict[bytes, None] = {}
-        changed: list[int] = []
-        for _turn in range(TURNS):
-            z, left = solve(p)
-            values = self.equations.values(t0, z, p)
-            old = p[hybrid.slots].tobytes()
-            changed = self._modes(Point(t0, values, p), p) + self._following(Point(t0, values, p), p)
-            changed += self._initial_triggers(Point(t0, values, p), p)
-            if not changed or (p[hybrid.slots].tobytes() in tried and self._by_rounding(Point(t0, values, p), changed)):
-                break
-            tried[old] = None
-        else:
-            raise SimulationError(
-                f"At the start the conditions and the equations contradict each other:\n{self._names(changed)}"
-            )
+        z, left, values = self._first_modes(t0, p, solve)
         self.rounding = 0.0
         point = Point(t0, values, p)
         self.moves = []
@@ -378,6 +364,32 @@ class EventIteration(ModeSearch):
             outcome, self.moves = again, [*earlier, *self.moves]
         outcome.ended = outcome.ended or ended
         return outcome, left
+
+    def _first_modes(self, t0: float, p: Floats, solve: Callable[[Floats], tuple[Floats, Floats]]) -> Any:
+        """Slots that agree with the consistent start, put into p; the start, the residuals left, and all values.
+
+        The start is solved for anew with each change of the slots. Where that goes round in a circle, it goes on from
+        the modes that are found as at any other event.
+        """
+        z, changed = np.zeros(0), list[int]()
+        for searched in (False, True):
+            tried: dict[bytes, None] = {}
+            for _turn in range(TURNS):
+                z, left = solve(p)
+                values = self.equations.values(t0, z, p)
+                point, old = Point(t0, values, p), p[self.hybrid.slots].tobytes()
+                changed = self._modes(point, p) + self._following(point, p) + self._initial_triggers(point, p)
+                again = p[self.hybrid.slots].tobytes() in tried
+                if not changed or (again and self._by_rounding(point, changed)):
+                    return z, left, values
+                tried[old] = None
+                if again:
+                    break
+            if not searched:
+                self._consistent(t0, z, p)
+        raise SimulationError(
+            f"At the start the conditions and the equations contradict each other:\n{self._names(changed)}"
+        )
 
     def _initial_triggers(self, point: Point, p: Floats) -> list[int]:
         """Triggers that `initial()` pulls: conditions that hold with it and would not without."""

@@ -81,7 +81,7 @@ class ModeSearch:
                     new[stays] = p[piece.slots[stays]]
             changed += self._put(p, piece.slots, new)
         for piece in self.hybrid.floors:
-            changed += self._put(p, piece.slots, np.floor(piece.values(point)[0]))
+            changed += self._put(p, piece.slots, self.hybrid.steps(piece, point))
         return changed
 
     def _following(self, point: Point, p: Floats) -> list[int]:

@@ -79,12 +79,17 @@ static int fmu_settle(fmu_instance *f) {
 }
 
 /* ---- one turn ------------------------------------------------------------------------------------ */
+/* Slots of floor(x) hold the integer above. */
+static void fmu_steps(fmu_instance *f, int *changed) {
+    for (int k = 0; k < FMU_FLOORS; k++) fmu_put(f, fmu_floor_slot[k], floor(f->events[k]) + 1.0, changed);
+}
+
 /* Modes that follow from values that move. */
 static int fmu_modes(fmu_instance *f) {
     int changed = 0;
     for (int k = 0; k < AC_NR; k++)
         if (ac_root_slot[k] >= 0 && !fmu_root_follows[k]) fmu_put(f, ac_root_slot[k], fmu_holds(f, k), &changed);
-    for (int k = 0; k < FMU_FLOORS; k++) fmu_put(f, fmu_floor_slot[k], floor(f->events[k]), &changed);
+    fmu_steps(f, &changed);
     return changed;
 }
 
@@ -334,7 +339,7 @@ static int fmu_event(fmu_instance *f, const int *switched, int sampled, int fina
     if (final && FMU_TERMINAL >= 0) fmu_put(f, FMU_TERMINAL, 1.0, &changed);
     for (int k = 0; switched && k < AC_NR; k++)
         if (switched[k] && ac_root_slot[k] >= 0) fmu_put(f, ac_root_slot[k], 1.0 - f->s.p[ac_root_slot[k]], &changed);
-    for (int k = 0; k < FMU_FLOORS; k++) fmu_put(f, fmu_floor_slot[k], floor(f->events[k]), &changed);
+    fmu_steps(f, &changed);
     status = fmu_iterate(f);
     if (status != FMU_OK) return status;
     if (sampled) { /* they are over at once: what is true with them falls back, and is seen to do so */
