@@ -7,8 +7,11 @@ from acausal import PI, DeclarationError, Expr
 
 FREE, FORWARD, STUCK, BACKWARD, UNKNOWN = 2.0, 1.0, 0.0, -1.0, 3.0
 """Values of `mode`, as in Modelica.Mechanics.Rotational.Interfaces.PartialFriction."""
-GIVE = 1e-14
-"""Relative acceleration, over its unit, of an element that is stuck and holds as much as it can."""
+GIVE = 1e-11
+"""Relative acceleration, over its unit, of an element that is stuck and holds as much as it can.
+
+Rounding leaves 1e-16 over this of the shares undetermined; and a stuck element that begins to slide has crept by this.
+"""
 LEAST = 1e-12
 """Keeps the share of what an element can hold finite where it can hold nothing."""
 

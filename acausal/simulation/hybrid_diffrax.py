@@ -45,6 +45,8 @@ from .switch import Switch
 from .traced import Way, simulate_traced
 from .watch import watch
 
+UNSEEN = 1e-3
+"""Part of its size from which a condition behind its switch has been overlooked."""
 SLACK = 1e-12
 """What happens at the same time as an event is this close to its switch, relative to the condition's largest value."""
 TIME, NEAR_ZERO = 1e-14, 1e-30
@@ -214,7 +216,8 @@ class _Stretches:
         hybrid, equations, n_x = self.iteration.hybrid, self.iteration.equations, self.lowered.n_x
         slack, shortest = _slack(self.iteration, equations, t, z, p), jnp.asarray(NARROWEST * (stop - t))
         together = isinstance(self.model.method, Rodas5P)
-        switch = Switch(jnp.asarray(slack), shortest, self.lowered, hybrid.roots, together, n_x)
+        size, noise = jnp.asarray(self.iteration.sizes_of_roots), jnp.asarray(self.iteration.noise)
+        switch = Switch(jnp.asarray(slack), size, noise, shortest, self.lowered, hybrid.roots, together, n_x)
         finder = _JustBehind(rtol=TIME, atol=NEAR_ZERO, flip=True)  # what switches by rounding is at an end of the step
         event = diffrax.Event(switch, finder) if hybrid.roots.count else None
         outcome, seconds, _ = plain.carry_out(
@@ -233,13 +236,31 @@ class _Stretches:
         if sum(named.values()) and steps < named["steps"]:
             name = "max_steps_reached"
         result = EVENT if happened else RESULTS.index(name) if name in RESULTS else 1
+        if result == 0:
+            self._check_seen(t_end, z_end, p, slack)
         roots = _switched(self.iteration, equations, t_end, z_end, p, slack) if happened else None
         return Stretch(found, result, n, t_end, z_end, 0.0, roots, named)
+
+    def _check_seen(self, t: float, z: Floats, p: Floats, slack: Floats) -> None:
+        """Raise an error where a condition is on the other side than its mode says, and no event was found."""
+        iteration = self.iteration
+        beyond = sides(iteration.hybrid, iteration.equations, t, z, p) - slack
+        unseen = beyond > UNSEEN * np.maximum(iteration.sizes_of_roots, np.abs(beyond))
+        if unseen.any():
+            slots = dict.fromkeys(iteration.hybrid.roots.slots[unseen].tolist())
+            texts = [iteration.hybrid.text(s) for s in slots if s >= 0] or ["a step of `floor`"]
+            raise SimulationError(
+                f"By t = {t:.12g} s these conditions have switched, and no event was found:\n"
+                + "\n".join(f"    {text}" for text in texts[:8])
+                + "\nWhat is compared there hangs on rounding, as how several stuck frictions share the load of one "
+                "shaft. Take engine='native', or give the components that share it some elasticity."
+            )
 
     def static(self) -> Integrate:
         """The same for a model without states."""
         hybrid, lowered = self.iteration.hybrid, self.lowered
-        switch = Switch(jnp.zeros(hybrid.roots.count), jnp.zeros(()), lowered, hybrid.roots, True, 0)
+        none = jnp.zeros(hybrid.roots.count)
+        switch = Switch(none, none, none, jnp.zeros(()), lowered, hybrid.roots, True, 0)
         run = jax.jit(functools.partial(_look, switch))
 
         def look(begin: float, t: float, z: Floats, p: Floats) -> tuple[Floats, Floats]:

@@ -303,14 +303,16 @@ def _solve(
         sub = diffrax.SubSaveAt(t0=where[1], t1=where[2], ts=points, steps=where[3])
     else:
         sub = diffrax.SubSaveAt(ts=points)
-    if settings.event is not None and isinstance(settings.event.cond_fn, Switch):
-        solver = Watched(solver, settings.event.cond_fn)
+    event = settings.event
+    if event is not None and isinstance(event.cond_fn, Switch):
+        switch = event.cond_fn.armed(t0, y0, args)
+        solver, event = Watched(solver, switch), diffrax.Event(switch, event.root_finder)
     keep = _keeps_factors(settings.solver)
     saveat = diffrax.SaveAt(subs=[sub, diffrax.SubSaveAt(t1=True)], solver_state=keep)
     solved = diffrax.diffeqsolve(
         diffrax.ODETerm(field), solver, t0, t1, None if isinstance(controller, diffrax.StepTo) else dt, y0, args,
         saveat=saveat, stepsize_controller=controller,
-        max_steps=settings.max_steps, adjoint=settings.adjoint, event=settings.event, throw=settings.throw,
+        max_steps=settings.max_steps, adjoint=settings.adjoint, event=event, throw=settings.throw,
         progress_meter=diffrax.TextProgressMeter() if settings.progress else diffrax.NoProgressMeter(),
     )  # fmt: skip
     assert solved.ts is not None and solved.ys is not None

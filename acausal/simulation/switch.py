@@ -20,11 +20,13 @@ from .scan import CUBIC, FURTHER, LOOKS, NODES, ROUNDING, TRUST
 
 SMALL = 1e-90
 """The root finder asks for a small function as well as for a short interval: the interval alone is to count."""
+ARMED = 1e-6
+"""Part of its size that a condition may be behind its switch by rounding."""
 _PLACES = np.sort([*LOOKS, *FURTHER])
 _NODES = np.searchsorted(_PLACES, LOOKS[NODES])
 
 
-def unresolved(sides: Any) -> Any:
+def unresolved(sides: Any, noise: Any) -> Any:
     """Whether the values of each condition at `_PLACES` leave open what happens between them.
 
     As `acausal/lowering/c/runtime/scan.h`: the cubic through four of them is to tell the others where it matters, and a
@@ -32,6 +34,7 @@ def unresolved(sides: Any) -> Any:
 
     Args:
         sides: (9, n), negative where a condition has switched.
+        noise: (n,) what of each is rounding.
     """
     a = CUBIC @ sides[_NODES]
     error = TRUST * jnp.max(jnp.abs(sides - np.vander(_PLACES, 4, increasing=True) @ a), axis=0)
@@ -42,7 +45,7 @@ def unresolved(sides: Any) -> Any:
     x = jnp.where(between, bottom, 0.0)
     seen, span = jnp.min(sides, axis=0), jnp.ptp(sides, axis=0)
     least = jnp.where(between, jnp.minimum(seen, a[0] + x * (a[1] + x * (a[2] + x * a[3]))), seen)
-    vague = jnp.where(seen <= 0.0, error > 0.1 * span, least < error) & (error > ROUNDING * span)
+    vague = jnp.where(seen <= 0.0, error > 0.1 * span, least < error) & (error > 10.0 * noise + ROUNDING * span)
     hidden = (seen > 0.0) & (least <= 0.0)
     on = (sides <= 0.0).any(axis=1)
     there_and_back = (on[:-1] & ~on[1:]).any()
@@ -54,6 +57,8 @@ class Switch(eqx.Module):
 
     Attributes:
         slack: (n_roots,) what a condition may be on the other side.
+        size: (n_roots,) largest value of each condition at events.
+        noise: (n_roots,) what of each condition is rounding.
         shortest: steps shorter than this are not refused [s].
         lowered: the equations.
         roots: the conditions.
@@ -62,11 +67,24 @@ class Switch(eqx.Module):
     """
 
     slack: Array
+    size: Array
+    noise: Array
     shortest: Array
     lowered: Any = eqx.field(static=True)
     roots: Roots = eqx.field(static=True)
     together: bool = eqx.field(static=True)
     n_x: int = eqx.field(static=True)
+
+    def armed(self, t: Any, y: Any, args: Any) -> Switch:
+        """With slack for what has switched at the start already, but for rounding.
+
+        The mode that an event has left is that of values computed elsewhere; where equations are nearly singular,
+        those here differ. A root is a change of sign: without slack, none would be found from there on.
+        """
+        behind = jax.lax.stop_gradient(-self.sides(t, y, args))
+        some = (behind >= 0.0) & (behind <= ARMED * jnp.maximum(self.size, behind))
+        slack = self.slack + jnp.where(some, 10.0 * behind + self.noise, 0.0)
+        return Switch(slack, self.size, self.noise, self.shortest, self.lowered, self.roots, self.together, self.n_x)
 
     def __call__(self, t: Any, y: Any, args: Any, **_: Any) -> Array:
         return SMALL * jnp.min(self.sides(t, y, args))
@@ -113,7 +131,7 @@ class Watched(Wrapped):
 
             inside = jax.lax.map(sides, jnp.asarray(_PLACES[1:-1]))
             ends = self.switch.sides(t0, y0, args), self.switch.sides(t1, y1, args)
-            over = unresolved(jnp.concatenate([ends[0][None], inside, ends[1][None]]))
+            over = unresolved(jnp.concatenate([ends[0][None], inside, ends[1][None]]), self.switch.noise)
             over &= t1 - t0 > self.switch.shortest
             error = jax.tree.map(lambda e: jnp.where(over, jnp.inf, e), error)
         return y1, error, dense, state, result

@@ -28,7 +28,9 @@ NOT_INTEGRATED = {
     "hydraulic.cylinders.Chamber", "multibody.free_joints.RevolutePlanarLoopConstraint", "planar.joints.Revolute",
     "planar.sensors.AbsoluteVelocity", "planar.wheels.IdealRolling", "planar.sensors.AbsoluteAcceleration",
     "planar.gears.RigidNoLossExternal", "planar.gears.RigidNoLossInternal", "planar.wheels.DryFrictionBasedRolling",
-    "planar.to_multibody.PlanarToMultiBody",
+    "planar.to_multibody.PlanarToMultiBody", "multibody.assemblies.JointRRR", "multibody.assemblies.JointSSR",
+    "multibody.assemblies.JointUSR", "multibody.line_forces.LineForceWithTwoMasses", "multibody.rolling.RollingWheel",
+    "multibody.rolling.RollingWheelJoint", "multibody.rolling.RollingWheelSetJoint",
 }  # fmt: skip
 
 PARAMETERS = [

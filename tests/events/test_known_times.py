@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal import Component, Equations, Parameter, Variable, der, where
 
 from .benchmarks import KNOWN
 
@@ -151,3 +152,43 @@ def test_pulses_much_narrower_than_a_step(solver: str) -> None:
         np.testing.assert_allclose(found, [begin, end], rtol=2e-15, err_msg=f"seed {seed}")
         assert solution["n"][-1] == 1.0
         np.testing.assert_allclose(solution["x"][-1], 1.0, atol=4e-15 * end / (end - begin), err_msg=f"seed {seed}")
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_steps_of_floor_through_zero(engine: Any) -> None:
+    """Just below zero, x + 1 is 1 to rounding: the step is where x changes its sign, and taken once."""
+    offsets = np.random.default_rng(7).uniform(0.001, 0.01, 20 if engine == "native" else 2)
+
+    class Steps(Component):
+        offset: Parameter = Parameter(0.005)
+        n: Variable = Variable()
+        x: Variable = Variable(start=0.0, fixed=True)
+
+        def equations(self) -> Equations:
+            yield self.n == ac.floor((ac.time - self.offset) / 0.1)
+            yield der(self.x) == self.n
+
+    system = ac.compile(Steps())
+    for offset in offsets.tolist():
+        run = system.simulate(0.25, parameters={"offset": offset}, engine=engine, rtol=1e-8)
+        assert [e.t for e in run.events] == pytest.approx([offset, offset + 0.1, offset + 0.2], abs=1e-15, rel=1e-15)
+        assert run["x"][-1] == pytest.approx(-offset + 0.1 + 2 * (0.05 - offset), abs=1e-9)
+
+
+def test_a_switch_that_is_not_found_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Were the functions of the conditions blind, the run would go on with modes that do not hold."""
+
+    class Turned(Component):
+        x: Variable = Variable(start=1.0, fixed=True)
+
+        def equations(self) -> Equations:
+            yield der(self.x) == where(self.x > 0.5, -1.0, -0.1)
+
+    def blind(self: Any, t: Any, y: Any, args: Any) -> Any:
+        return 1.0 + 0.0 * self.slack
+
+    monkeypatch.setattr("acausal.simulation.switch.Switch.sides", blind)
+    text = r"By t = 1 s these conditions have switched.*\n    `x > 0.5`"
+    with pytest.raises(ac.SimulationError, match=text) as found:
+        ac.compile(Turned()).simulate(1.0, engine="diffrax")
+    assert "hangs on rounding" in str(found.value)

@@ -40,13 +40,13 @@ class PartialFriction(Component, partial=True):
     def equations(self) -> Equations:
         yield from super().equations()
         w, sa = self.w_relfric, self.sa
-        rest, peak = self.tau0 / self.unitTorque, self.tau0_max / self.unitTorque
+        peak = self.tau0_max / self.unitTorque
         was = pre(self.mode)
         was_free, forward, stuck, backward = was == FREE, was == FORWARD, was == STUCK, was == BACKWARD
         held = pre(self.locked) > 0.5  # what comes to rest is held first: sliding on would agree with the laws, too
         begins, returns = ac.initial() & (w > 0), ac.initial() & (w < 0)
-        starts = stuck & ((held & (sa > peak)) | ((pre(self.startForward) > 0.5) & (sa > rest)))
-        reverses = stuck & ((held & (sa < -peak)) | ((pre(self.startBackward) > 0.5) & (sa < -rest)))
+        starts = stuck & ((held | (pre(self.startForward) > 0.5)) & (sa > peak))
+        reverses = stuck & ((held | (pre(self.startBackward) > 0.5)) & (sa < -peak))
         yield self.startForward == where(starts | (backward & (w > self.w_small)) | begins, 1.0, 0.0)
         yield self.startBackward == where(reverses | (forward & (w < -self.w_small)) | returns, 1.0, 0.0)
         going, coming, free = self.startForward > 0.5, self.startBackward > 0.5, self.free > 0.5

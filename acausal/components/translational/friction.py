@@ -40,13 +40,13 @@ class PartialFriction(Component, partial=True):
     def equations(self) -> Equations:
         yield from super().equations()
         v, sa = self.v_relfric, self.sa
-        rest, peak = self.f0 / self.unitForce, self.f0_max / self.unitForce
+        peak = self.f0_max / self.unitForce
         was = pre(self.mode)
         was_free, forward, stuck, backward = was == FREE, was == FORWARD, was == STUCK, was == BACKWARD
         held = pre(self.locked) > 0.5  # what comes to rest is held first: sliding on would agree with the laws, too
         begins, returns = ac.initial() & (v > 0), ac.initial() & (v < 0)
-        starts = stuck & self.ahead((held & (sa > peak)) | ((pre(self.startForward) > 0.5) & (sa > rest)))
-        reverses = stuck & self.behind((held & (sa < -peak)) | ((pre(self.startBackward) > 0.5) & (sa < -rest)))
+        starts = stuck & self.ahead((held | (pre(self.startForward) > 0.5)) & (sa > peak))
+        reverses = stuck & self.behind((held | (pre(self.startBackward) > 0.5)) & (sa < -peak))
         yield self.startForward == where(starts | (backward & (v > self.v_small)) | begins, 1.0, 0.0)
         yield self.startBackward == where(reverses | (forward & (v < -self.v_small)) | returns, 1.0, 0.0)
         going, coming, free = self.startForward > 0.5, self.startBackward > 0.5, self.free > 0.5
