@@ -66,14 +66,19 @@ def test_gravity_without_direction() -> None:
         ac.compile(model).simulate(1.0)
 
 
-@pytest.mark.parametrize("engine", ["native", "diffrax"])
 @pytest.mark.parametrize(("model", "named"), [
-    (pendulum(mb.Revolute(), mb.Body(m=0.0, I_11=0.0, I_22=0.0, I_33=0.0)), r"der\(joint\.w\)"),
-    (assemble(world=inner(mb.World()), body=mb.Body(m=0.0)), r"der\(body\.v_0\[1\]\)"),
-    (assemble(world=inner(mb.World(gravityType="PointGravity")), body=mb.Body()), r"der\(body\.v_0\[1\]\)"),
-], ids=["pendulum", "free body", "at the centre of gravity"])  # fmt: skip
-def test_what_moves_without_mass(engine: Any, model: Component, named: str) -> None:
-    with pytest.raises(ac.SimulationError, match=named):
+    (pendulum(mb.Revolute(), mb.Body(m=0.0, I_11=0.0, I_22=0.0, I_33=0.0)), r"The values 0 of .*`body\.m`"),
+    (assemble(world=inner(mb.World()), body=mb.Body(m=0.0)), r"The value 0 of `body\.m`"),
+], ids=["pendulum", "free body"])  # fmt: skip
+def test_what_moves_without_mass(model: Component, named: str) -> None:
+    with pytest.raises(ac.StructureError, match=named):
+        ac.compile(model)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_at_the_centre_of_gravity(engine: Any) -> None:
+    model = assemble(world=inner(mb.World(gravityType="PointGravity")), body=mb.Body())
+    with pytest.raises(ac.SimulationError, match=r"der\(body\.v_0\[1\]\)"):
         ac.compile(model).simulate(1.0, engine=engine)
 
 
