@@ -263,8 +263,10 @@ def finish(
     stats |= {"compile_seconds": seconds[0], "run_seconds": seconds[1], "t_end": run.t_end}
     if isinstance(run, HybridRun):
         z, t, slots, events, result = run.z, run.save, run.slots, tuple(run.events), run.result
+        p_end = run.p_end  # with the modes that the run has ended in
     else:
         z, t, slots, events, result = run.z[: run.saved], save[: run.saved], None, (), RESULTS[run.code]
+        p_end = p
 
     def observe(t: Any, z: Any) -> Any:
         return model.observe(t, z, p, signals, slots)
@@ -276,5 +278,5 @@ def finish(
         from .failure import explain
 
         last = run.t_end, run.z_end[: low.n_x], run.z_end[low.n_x :]
-        raise SimulationError(explain(system, low, RESULTS[run.code], stats, last, p, t1, max_steps))
+        raise SimulationError(explain(system, low, RESULTS[run.code], stats, last, p_end, t1, max_steps))
     return solution

@@ -17,6 +17,10 @@ LARGEST = 500
 """Up to so many algebraic unknowns their Jacobian is looked at."""
 SINGULAR = 1e-7
 """Smallest singular value relative to the largest, after scaling: steps end near a singular point, not at it."""
+VANISHED = 1e-5
+"""The same beside what the equations say of the states: an unknown vanishes with the root of the distance."""
+RUN_AWAY = 1e20
+"""Size, in nominal values, of an unknown that no equation holds any more."""
 SHOWN = 6
 """Unknowns named."""
 
@@ -47,8 +51,9 @@ def explain(
     counts = f"{stats['steps']} steps by {stats['solver']}, {stats['rejected']} of them rejected."
     dx, r = lowered.derivatives(t, x, w, p)
     found = _nonfinite(system, dx, r)
+    lost = _run_away(system, lowered, w)
     if found:
-        return "\n".join([head, f"{found} there.", *_equation(system, lowered, t, x, w, p), counts])
+        return "\n".join([head, f"{found} there.", *_equation(system, lowered, t, x, w, p), *lost, counts])
 
     lines = [head, *_fastest(system, np.asarray(x), np.asarray(dx), lowered.x_nominal)]
     if result == "dt_min_reached":
@@ -64,7 +69,7 @@ def explain(
             "tolerance (give it its `nominal`, or a smaller `atol`)."
         )
     if result in ("dt_min_reached", "singular"):
-        lines += _singular(system, lowered, t, x, w, p)
+        lines += lost or _singular(system, lowered, t, x, w, p)
     if result == "max_steps_reached":
         lines.append("Raise `max_steps`, loosen `rtol`, or look for chattering in this variable.")
     return "\n".join([*lines, counts])
@@ -83,17 +88,40 @@ def _singular(system: Any, lowered: Lowered, t: float, x: Any, w: Any, p: Any) -
     """The algebraic unknowns that their equations no longer determine, and these equations."""
     if not hasattr(system, "stages") or not 0 < w.size <= LARGEST:
         return []
-    matrix = scaled(np.asarray(jax.jacfwd(lambda w: lowered.derivatives(t, x, w, p)[1])(w), float))
-    if not np.isfinite(matrix).all():
+    slopes = jax.jacfwd(lambda x, w: lowered.derivatives(t, x, w, p)[1], argnums=(0, 1))(x, w)
+    by_states, by_unknowns = (np.asarray(slope, float) for slope in slopes)
+    if not np.isfinite(by_unknowns).all():
         return []
-    _, sigma, right = np.linalg.svd(matrix)
-    if sigma[-1] > SINGULAR * max(sigma[0], 1e-300):
+    found = _undetermined(scaled(by_unknowns), SINGULAR)
+    if found is None and np.isfinite(by_states).all():
+        # a single equation compares with itself: beside what it says of the states, it may say nothing of its unknown
+        moved = np.concatenate([by_states * lowered.x_nominal, by_unknowns * lowered.w_nominal], axis=1)
+        size = np.abs(moved).max(axis=1, keepdims=True)
+        found = _undetermined(moved[:, len(x) :] / np.where(size > 0, size, 1.0), VANISHED)
+    if found is None:
         return []
-    weak = np.abs(right[-1])
+    weak = np.abs(found)
     unknowns = np.flatnonzero(weak > 1e-3 * weak.max())[:SHOWN]
     names = ", ".join(f"`{system.algebraics[k]}`" for k in unknowns)
     head = f"The Jacobian is singular there: these equations do not determine {names}:"
     return [head, *block_equations(system, unknowns)]
+
+
+def _run_away(system: Any, lowered: Lowered, w: Any) -> list[str]:
+    """The algebraic unknowns that have left all bounds, and their equations: there is no solution any more."""
+    if not hasattr(system, "stages"):
+        return []
+    lost = np.flatnonzero(~(np.abs(np.asarray(w)) < RUN_AWAY * np.asarray(lowered.w_nominal)))[:SHOWN]
+    if not len(lost):
+        return []
+    names = ", ".join(f"`{system.algebraics[k]}`" for k in lost)
+    return [f"These equations have no solution for {names} there:", *block_equations(system, lost)]
+
+
+def _undetermined(matrix: np.ndarray, least: float) -> np.ndarray | None:
+    """The direction that a matrix does not determine, if there is one."""
+    _, sigma, right = np.linalg.svd(matrix)
+    return right[-1] if sigma[-1] <= least * max(sigma[0], 1.0) else None
 
 
 def _equation(system: Any, lowered: Any, t: float, x: Any, w: Any, p: Any) -> list[str]:

@@ -298,3 +298,40 @@ def test_no_solution_behind_an_event(tmp_path: Path) -> None:
     """
     words = ["At t = 0.5 s the equations have no solution", "Not met:", "der(x)**2", "where(time < 0.5, 1, -x)"]
     error_of(tmp_path, dedent(text), ac.SimulationError, words)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_a_root_that_ends_names_its_equation(engine: str, tmp_path: Path) -> None:
+    """``z^2 = x`` with x through zero: the equation determines nothing at x = 0, and has no root behind it."""
+    text = f"""
+    class M(Component):
+        x: Variable = Variable(start=1.0, fixed=True)
+        z: Variable = Variable(start=1.0)
+
+        def equations(self) -> Equations:
+            yield der(self.x) == -1
+            yield self.z**2 == self.x  # HERE
+
+
+    ac.compile(M()).simulate(2.0, engine={engine!r})
+    """
+    words = ["stopped at t = 1 s of 2 s", "These equations have no solution for `z` there:", "z**2 = x"]
+    error_of(tmp_path, dedent(text), ac.SimulationError, words)
+
+
+def test_a_mode_that_leaves_an_unknown_undetermined(tmp_path: Path) -> None:
+    """An ideal diode without any resistance beside capacitors: conducting, its equation has no unknown."""
+    text = """
+    from acausal.components import electrical as el
+    from acausal.components.examples import assemble
+
+    model = assemble(
+        "source.p - coil.p", "coil.n - diode.p - first.p", "diode.n - second.p",
+        "source.n - first.n - second.n - ground.p", source=el.SineVoltage(V=5.0, f=1.0), coil=el.Inductor(L=0.1),
+        first=el.Capacitor(C=0.1, v=start(0.0, fixed=True)), second=el.Capacitor(C=0.2, v=start(1.0, fixed=True)),
+        diode=el.IdealDiode(Ron=0.0, Goff=0.0), ground=el.Ground(),
+    )
+    ac.compile(model).simulate(2.0, engine="native")
+    """
+    words = ["singular", "its equation does not depend on it", "diode.Ron = 0"]
+    error_of(tmp_path, dedent(text), ac.SimulationError, words)
