@@ -323,11 +323,8 @@ class _Emitter:
 
     def _batch(self, group: Group) -> Any:
         kernel, n = group.kernel, group.size
-        columns: dict[int, Any] = {}
-        for j in range(kernel.size if not kernel.iterates else 0, group.var_rows.shape[1]):
-            columns[j] = self.env.gather(group.var_rows[:, j])
-        if kernel.iterates:
-            columns = {j: v for j, v in columns.items() if j >= kernel.size or j in kernel.tears}
+        given = [*(kernel.tears if kernel.iterates else ()), *range(kernel.size, group.var_rows.shape[1])]
+        columns = {j: self.env.gather(group.var_rows[:, j]) for j in given}
         parameters = [self.parameter_column(group.par_rows[:, j]) for j in range(group.par_rows.shape[1])]
         found, residuals = self.kernel(kernel, columns, parameters, n)
         for u, value in found.items():

@@ -88,3 +88,30 @@ def test_engines_agree(name: str, make: Callable[[], tuple[ac.Component, float, 
         worst[variable] = float(np.max(np.abs(a - b))) / size
     far = {variable: error for variable, error in worst.items() if not error <= LOOSE.get(name, AGREE)}
     assert not far
+
+
+class Cell(ac.Component):
+    """A state, and three coupled equations of which one unknown is iterated on."""
+
+    x: ac.Variable = ac.Variable(start=1.0, fixed=True)
+    a: ac.Variable = ac.Variable(start=0.5)
+    b: ac.Variable = ac.Variable(start=0.5)
+    c: ac.Variable = ac.Variable(start=0.5)
+
+    def equations(self) -> ac.Equations:
+        yield ac.der(self.x) == -self.a
+        yield self.a + 0.1 * self.b**3 + ac.exp(0.1 * self.c) == self.x + 1
+        yield self.b == 0.5 * self.a + 0.2 * ac.sin(self.c)
+        yield self.c == self.a * self.a + 0.1 * self.b
+
+
+class Cells(ac.Component):
+    cells: ac.Array[Cell] = ac.Array(Cell(), 2)
+
+
+def test_equal_blocks_with_fewer_tears_than_unknowns() -> None:
+    system = ac.compile(Cells())
+    assert any(g.size == 2 and 0 < len(g.kernel.tears) < g.kernel.size for g in system.lowered.schedule.groups)
+    native, diffrax = (system.simulate(1.0, rtol=1e-9, saveat=11, engine=e) for e in ("native", "diffrax"))
+    for name in ("cells[0].x", "cells[1].b", "cells[1].c"):
+        np.testing.assert_allclose(diffrax[name], native[name], atol=1e-8)
