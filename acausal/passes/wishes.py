@@ -4,14 +4,15 @@ A spring and damper computes ``v_rel == der(s_rel)``, and prefers both as states
 not appear differentiated" (Modelica Language Specification 3.6, section 4.8.7.1). So such a variable gets a derivative,
 and the model is analysed again, where it follows from other states by linear relations with constant coefficients:
 kinematics. What follows from forces, signals or switches is left alone: its derivative may not exist, and would make
-the index higher.
+the index higher. Long chains keep their absolute coordinates: those would be sums of all the relative ones before them,
+one after the other, with dense Jacobians where start values are given for them.
 """
 
 from __future__ import annotations
 
 import numpy as np
 from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import breadth_first_order
+from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from ..language.declarations import STATE_SELECT
 from ..language.flat_model import Bools, Family, FlatModel
@@ -23,6 +24,8 @@ from .aliases import Reduced
 from .structure import IndexReduced, extended
 
 PREFER = STATE_SELECT.index("prefer")
+MOST = 50
+"""More wishes than this that are related to each other are a long chain."""
 
 
 def wished_states(reduced: Reduced, index: IndexReduced) -> Ints:
@@ -40,7 +43,9 @@ def wished_states(reduced: Reduced, index: IndexReduced) -> Ints:
     first = solved_by[reduced.representative[wanted]]
     reached = _reached(len(top), first, from_, to)
     others = np.flatnonzero(reached)[~_kinematic(index, top[reached])]
-    return wanted[~_reached(len(top), others, to, from_)[first]]
+    possible = ~_reached(len(top), others, to, from_)[first]
+    wanted, first = wanted[possible], first[possible]
+    return wanted[~_chained(index, top[first])]
 
 
 def with_derivatives(written: FlatModel, variables: Ints) -> FlatModel:
@@ -59,6 +64,15 @@ def _reached(n: int, starts: Ints, from_: Ints, to: Ints) -> Bools:
     out = np.zeros(n + 1, bool)
     out[np.asarray(order)] = True
     return out[:n]
+
+
+def _chained(index: IndexReduced, wishes: Ints) -> Bools:
+    """Which of the rows `wishes` are related to more than `MOST` of them by variables that equations share."""
+    m, n = len(index.rows), len(index.unknown)
+    graph = index.rows.incidence(n, np.ones(n, bool))
+    shared = coo_matrix((np.ones(len(graph.indices)), (graph.edge_rows(), m + graph.indices)), shape=(m + n, m + n))
+    _, label = connected_components(shared, directed=False)
+    return np.bincount(label[wishes], minlength=m + n)[label[wishes]] > MOST
 
 
 def _kinematic(index: IndexReduced, rows: Ints) -> Bools:

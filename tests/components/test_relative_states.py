@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Component, Equations, Input, connect
+from acausal import Array, Component, Equations, Input, connect
 from acausal.components import blocks, rotational, translational
 from acausal.components.examples import assemble, start
 
@@ -131,3 +131,25 @@ def test_relative_states_may_be_left_out(wish: str) -> None:
         two=rotational.Inertia(), relative=rotational.RelativeStates(stateSelect=wish, phi_nominal=1e-3),
     )  # fmt: skip
     assert ("relative.phi_rel" in ac.compile(model).states) == (wish == "prefer")
+
+
+class Train(Component):
+    """Wagons behind each other, the first of them held."""
+
+    count: int = 3
+    wall: translational.Fixed = translational.Fixed()
+    couplings: Array[translational.SpringDamper] = Array(translational.SpringDamper(c=8.0, d=1.0), "count")
+    wagons: Array[translational.Mass] = Array(
+        translational.Mass(m=2.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True)), "count"
+    )
+
+    def equations(self) -> Equations:
+        yield connect(self.wall.flange, self.couplings[0].flange_a)
+        yield connect(self.couplings[:].flange_b, self.wagons[:].flange_a)
+        yield connect(self.wagons[:-1].flange_b, self.couplings[1:].flange_a)
+
+
+@pytest.mark.parametrize(("count", "velocity"), [(3, "couplings[2].v_rel"), (60, "wagons[59].v")])
+def test_long_chains_keep_absolute_velocities(count: int, velocity: str) -> None:
+    """There each would be a sum of all the relative ones before it."""
+    assert {velocity, f"couplings[{count - 1}].s_rel"} < set(ac.compile(Train(count=count)).states)
