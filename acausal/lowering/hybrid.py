@@ -12,6 +12,7 @@ import numpy as np
 from ..language.declarations import Kind
 from ..language.flat_model import Bools, Family, FlatModel
 from ..language.template import Floats, Ints
+from ..passes.schedule import Group
 from ..passes.specialize import specialize
 from ..symbolic.expr import ONE, Expr, add, neg
 from ..symbolic.traverse import evaluate_in_order, leaves, postorder
@@ -101,7 +102,7 @@ class Hybrid:
     ends: list[tuple[Piece, str]]
     roots: Roots
     texts: dict[int, str] = field(default_factory=dict[int, str])
-    closures: dict[str, list[int]] = field(default_factory=dict[str, list[int]])
+    closures: dict[str, list[Group]] = field(default_factory=dict[str, list[Group]])
 
     @property
     def only_modes(self) -> bool:

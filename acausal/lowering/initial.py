@@ -7,7 +7,7 @@ steps (Deuflhard 2011, Newton Methods for Nonlinear Problems, 4.4).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -52,6 +52,7 @@ class InitialProblem:
         targets: other variables whose start value is an equation.
         families: initial equations.
         ease: scale of the states in the distance from the start values.
+        plans: how the conditions are evaluated, by the variables that have a value (`conditions`).
     """
 
     lowered: Lowered
@@ -61,6 +62,7 @@ class InitialProblem:
     targets: Ints
     families: list[Family]
     ease: Floats
+    plans: dict[bytes, Any] = field(default_factory=dict[bytes, Any], init=False)
 
     @property
     def all_ease(self) -> Floats:
@@ -214,7 +216,7 @@ def concerned(problem: InitialProblem, ids: Ints) -> Bools:
     from .sparsity import condition_pattern
 
     low = problem.lowered
-    pattern = condition_pattern(low, ids, [*low.schedule.invariants, *problem.families])
+    pattern = condition_pattern(low, ids, problem.families)
     return connected(pattern, np.arange(pattern.shape[0]) >= low.n_w)[: low.n_x]
 
 

@@ -2,8 +2,7 @@
 
 Used when all values are known numbers; inside JAX transformations `initial.solve_initial` does the work. Where Newton's
 method fails from the given guesses, the conditions are turned on gradually (Newton homotopy, Allgower and Georg 2003,
-Introduction to Numerical Continuation Methods, 1.1). Large problems have sparse Jacobians, found by compressed
-directional derivatives (Curtis, Powell and Reid 1974).
+Introduction to Numerical Continuation Methods, 1.1).
 """
 
 from __future__ import annotations
@@ -15,16 +14,10 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from ..dae.coloring import color_columns
 from ..language.template import Floats, Ints
-from .initial import EASE_ALGEBRAIC, InitialProblem, connected, given_starts
-from .numeric import NumericRun
-from .sparsity import condition_pattern
+from .conditions import Conditions
+from .initial import EASE_ALGEBRAIC, InitialProblem, given_starts
 
-LARGEST = 400
-"""With more states and algebraic unknowns than this, Jacobians are sparse."""
-COLORS = 1000
-"""Problems that would need more directional derivatives are left to the compiled path."""
 ITERATIONS = 100
 HOMOTOPY_STEPS = 20
 SMALLEST_STEP = 1e-15
@@ -57,13 +50,14 @@ def solve_numeric(
         if not low.n_w:
             return given.x, given.w, np.zeros(0)
         given.fixed[:] = True
-    if compiled is None:
-        function = conditions_of(problem, t0, p, given.ids, given.wanted)
+    evaluate, may_move = compiled, np.ones(low.n_x, bool)
+    if evaluate is None:
+        evaluate = Conditions(problem, t0, p, given.ids, given.wanted)
+        if evaluate.too_many:
+            return None
+        may_move = evaluate.may_move
     else:
-        function = _compiled(compiled, low.n_w + low.n_g, given.wanted), np.ones(low.n_x, bool)
-    if function is None:
-        return None
-    evaluate, may_move = function
+        evaluate = _compiled(evaluate, low.n_w + low.n_g, given.wanted)
     z = np.concatenate([given.x, given.w])
     nominal = np.concatenate([low.x_nominal, low.w_nominal])
     ease = np.concatenate([problem.ease, EASE_ALGEBRAIC * low.w_nominal])
@@ -87,40 +81,6 @@ def solve_numeric(
     return found[: low.n_x], found[low.n_x :], left
 
 
-def conditions_of(
-    problem: InitialProblem, t0: float, p: Floats, ids: Ints, wanted: Floats
-) -> tuple[Function, np.ndarray] | None:
-    """Residuals of all conditions with their Jacobian, and which states there is a reason to move."""
-    low = problem.lowered
-    n_x, n_z = low.n_x, low.n_x + low.n_w
-    everything = np.arange(n_x)
-
-    def conditions(z: Floats, directions: Floats | None) -> tuple[Floats, Floats]:
-        run = NumericRun(low, t0, z[:n_x], z[n_x:], p, everything, directions)
-        invariants, d_invariants = run.families(low.schedule.invariants)
-        extra, d_extra = run.families(problem.families)
-        value = np.concatenate([run.residual[0], invariants, run.value[ids] - wanted, extra])
-        return value, np.concatenate([run.residual[1], d_invariants, run.gradient[ids], d_extra])
-
-    if n_z <= LARGEST:
-        return (lambda z: conditions(z, None)), np.ones(n_x, bool)
-    pattern = _in_order(problem, ids)
-    color = color_columns(pattern)
-    n_colors = int(color.max(initial=-1)) + 1
-    if n_colors > COLORS:
-        return None
-    directions = np.zeros((n_z, n_colors))
-    directions[np.arange(n_z), color] = 1.0
-    rows = np.repeat(np.arange(pattern.shape[0]), np.diff(pattern.indptr))
-
-    def compressed(z: Floats) -> tuple[Floats, Any]:
-        value, slope = conditions(z, directions)
-        data = slope[rows, color[pattern.indices]]
-        return value, sparse.csr_array((data, pattern.indices, pattern.indptr), pattern.shape)
-
-    return compressed, connected(pattern, np.arange(pattern.shape[0]) >= low.n_w)[:n_x]
-
-
 def _compiled(conditions: Function, first: int, wanted: Floats) -> Function:
     """Conditions of which those from number `first` on are to have the values `wanted`."""
 
@@ -130,18 +90,6 @@ def _compiled(conditions: Function, first: int, wanted: Floats) -> Function:
         return value, slope
 
     return function
-
-
-def _in_order(problem: InitialProblem, ids: Ints) -> Any:
-    """Pattern of the conditions in their order: algebraic equations, invariants, variables `ids`, initial equations."""
-    low = problem.lowered
-    pattern = condition_pattern(low, ids, [*low.schedule.invariants, *problem.families])
-    n_w, n_i, n_g = low.n_w, len(ids), low.n_g
-    total = pattern.shape[0]
-    order = np.concatenate(
-        [np.arange(n_w), n_w + n_i + np.arange(n_g), n_w + np.arange(n_i), np.arange(n_w + n_i + n_g, total)]
-    )
-    return sparse.csr_array(pattern[order])
 
 
 class _Part:

@@ -47,6 +47,8 @@ class Lowered:
         self._plans: dict[tuple[int, ...], list[Group | Repetition]] = {}
         derivative_of = schedule.reduced.derivative_of
         self.dx_ids = derivative_of[schedule.states]
+        self.tear_position = np.full(self.n_ids, -1, np.int64)  # place among the algebraic unknowns
+        self.tear_position[schedule.tears] = np.arange(self.n_w)
 
     def attach(self, observed: tuple[Ints, Ints]) -> None:
         """Tell which reduced variable (with which sign) every variable of the flat model is."""

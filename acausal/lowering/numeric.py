@@ -16,6 +16,7 @@ from ..language.template import Floats, Ints
 from ..symbolic.expr import Expr
 from ..symbolic.operators import OPERATORS
 from ..symbolic.traverse import apply, evaluate, postorder_missing
+from .held import Held
 
 if TYPE_CHECKING:
     from ..passes.schedule import Group
@@ -36,12 +37,13 @@ class NumericRun:
 
     def __init__(
         self, lowered: Lowered, t: float, x: Floats, w: Floats, p: Floats, free: Ints, directions: Any = None,
-        p_directions: Any = None, t_direction: Any = None, groups: Iterable[int] | None = None,
+        p_directions: Any = None, t_direction: Any = None, groups: Iterable[Group] | None = None,
+        held: Held | None = None,
     ) -> None:  # fmt: skip
         """Derivatives with respect to the states `free` and all of w, or along the columns of `directions` of z.
 
-        With `p_directions` (n_p, n_y) the parameters move too, with `t_direction` (n_y,) time. Only some `groups` of
-        the schedule are evaluated if they are given.
+        With `p_directions` (n_p, n_y) the parameters move too, with `t_direction` (n_y,) time. Only these `groups` of
+        the schedule are evaluated if they are given. Values that are `held` stand in the place of what is computed.
         """
         self.t_direction = t_direction
         self.p_directions = p_directions
@@ -59,32 +61,59 @@ class NumericRun:
         self.value[states], self.value[tears] = x, w
         self.gradient[states] = directions[: len(states)]
         self.gradient[tears] = directions[len(states) :]
-        residuals: list[Dual] = []
+        self.residual: tuple[Floats, Floats] = np.zeros(len(tears)), np.zeros((len(tears), self.n_y))
+        self.place: Ints | None = None
+        if held is not None:
+            self._hold(held, np.concatenate([states, tears]))
         with np.errstate(all="ignore"):
-            for k in range(len(lowered.schedule.groups)) if groups is None else groups:
-                residuals.extend(self._group(lowered.schedule.groups[k]))
-        self.residual: tuple[Floats, Floats] = (
-            np.concatenate([np.zeros(0), *(np.ravel(v) for v, _ in residuals)]),
-            np.concatenate([np.zeros((0, self.n_y)), *(g for _, g in residuals)]),
-        )
+            for group in lowered.schedule.groups if groups is None else groups:
+                self._group(group)
 
-    def _group(self, group: Group) -> list[Dual]:
+    def _hold(self, held: Held, known: Ints) -> None:
+        """Put the values in, and make places for what is computed."""
+        free = ~np.isin(held.ids, known)
+        ids = held.ids[free]
+        self.place = np.full(self.lowered.n_ids, -1, np.int64)
+        self.place[ids] = np.arange(len(ids))
+        self.value[ids] = held.value[free]
+        self.gradient[ids] = 0.0 if held.gradient is None else held.gradient[free]
+        self.found: tuple[Floats, Floats] = np.full(len(ids), np.nan), np.zeros((len(ids), self.n_y))
+
+    def _put(self, ids: Ints, value: Any, gradient: Any) -> None:
+        """Values of variables; of those that are held, beside what they are."""
+        place = None if self.place is None else self.place[ids]
+        if place is None or (place < 0).all():
+            self.value[ids] = value
+            self.gradient[ids] = 0.0 if gradient is None else gradient
+            return
+        free, kept = place < 0, place >= 0
+        value = np.broadcast_to(value, ids.shape)
+        gradient = np.broadcast_to(0.0 if gradient is None else gradient, (len(ids), self.n_y))
+        self.value[ids[free]], self.gradient[ids[free]] = value[free], gradient[free]
+        self.found[0][place[kept]], self.found[1][place[kept]] = value[kept], gradient[kept]
+
+    def computed(self, ids: Ints) -> Dual:
+        """Values of variables as they are computed, whether they are held or not, and their gradients."""
+        value, gradient = self.value[ids], self.gradient[ids]
+        if self.place is not None:
+            kept = np.flatnonzero(self.place[ids] >= 0)
+            value[kept] = self.found[0][self.place[ids[kept]]]
+            gradient[kept] = self.found[1][self.place[ids[kept]]]
+        return value, gradient
+
+    def _group(self, group: Group) -> None:
         kernel, rows = group.kernel, group.var_rows
         leaf = self.leaf(rows, group.par_rows)
         if kernel.matrix:
             self._linear(group, leaf)
         for u, expression in kernel.steps:
-            value, gradient = evaluate_dual((expression,), leaf)[0]
-            self.value[rows[:, u]] = value
-            self.gradient[rows[:, u]] = 0.0 if gradient is None else gradient
+            self._put(rows[:, u], *evaluate_dual((expression,), leaf)[0])
         if not kernel.residuals:
-            return []
-        parts = evaluate_dual(kernel.residuals, leaf)
-        n, k = group.size, len(parts)
-        value = np.stack([np.broadcast_to(v, (n,)) for v, _ in parts], axis=1).reshape(n * k)
-        zero = np.zeros((n, self.n_y))
-        gradient = np.stack([np.broadcast_to(zero if g is None else g, zero.shape) for _, g in parts], axis=1)
-        return [(value, gradient.reshape(n * k, self.n_y))]
+            return
+        position = self.lowered.tear_position[group.unknowns[:, kernel.tears]]
+        for at, (value, gradient) in zip(position.T, evaluate_dual(kernel.residuals, leaf), strict=True):
+            self.residual[0][at] = value
+            self.residual[1][at] = 0.0 if gradient is None else gradient
 
     def leaf(self, rows: Ints, par_rows: Ints) -> Callable[[Expr], Dual]:
         """Values and gradients of the variables and parameters of some rows."""
@@ -113,8 +142,7 @@ class NumericRun:
         solution = np.linalg.solve(a, b[..., None])[..., 0]
         gradient = np.linalg.solve(a, db - np.einsum("nijy,nj->niy", da, solution))
         for i, u in enumerate(kernel.tears):
-            self.value[group.var_rows[:, u]] = solution[:, i]
-            self.gradient[group.var_rows[:, u]] = gradient[:, i]
+            self._put(group.var_rows[:, u], solution[:, i], gradient[:, i])
 
     def families(self, families: list[Family]) -> Dual:
         """Residuals of further equations and their gradients."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,65 +10,107 @@ from scipy import sparse
 
 from ..language.flat_model import Family
 from ..language.template import Ints
-from ..passes.schedule import needs
+from ..passes.schedule import Group, needs
 
 if TYPE_CHECKING:
     from .lowered import Lowered
 
+NO_IDS = np.zeros(0, np.int64)
+
 
 def jacobian_pattern(lowered: Lowered, groups: list[int]) -> Any:
     """Pattern of d(dx, r)/d(x, w), a boolean CSR matrix (n_x + n_w, n_x + n_w)."""
-    depends, residual_rows = dependence(lowered, groups)
-    return _stack([depends[lowered.dx_ids], *residual_rows])
+    found = Dependence(lowered, [lowered.schedule.groups[k] for k in groups])
+    return _stack([found.of_values(lowered.dx_ids), found.of_residuals()])
 
 
-def condition_pattern(lowered: Lowered, ids: Ints, families: list[Family]) -> Any:
-    """Pattern of d(r, variables `ids`, residuals of `families`)/d(x, w), a boolean CSR matrix."""
-    needed = np.concatenate([ids, *(f.var_rows.ravel() for f in families)])
-    depends, residual_rows = dependence(lowered, lowered.closure(needed, residuals=True))
-    rows = [_ones(f.var_rows, lowered.n_ids) @ depends for f in families]
-    return _stack([*residual_rows, depends[ids], *rows])
+def condition_pattern(
+    lowered: Lowered, ids: Ints = NO_IDS, families: Sequence[Family] = (), groups: Iterable[Group] | None = None,
+    held: Ints = NO_IDS,
+) -> Any:  # fmt: skip
+    """Pattern of d(r, invariants, variables `ids`, residuals of `families`)/d(x, w), a boolean CSR matrix.
 
-
-def dependence(lowered: Lowered, groups: list[int]) -> tuple[Any, list[Any]]:
-    """Which elements of (x, w) every variable depends on, (n_ids, n_x + n_w), and the same of the residuals r.
-
-    Dependence is propagated in evaluation order: what a block computes depends on what any of its inputs does.
+    Of the `groups` of the schedule, all that are needed by default; with the variables `held` given.
     """
-    schedule = lowered.schedule
-    n_z = lowered.n_x + lowered.n_w
-    known = np.concatenate([schedule.states, schedule.tears])
-    depends = _pattern(known, np.arange(n_z), lowered.n_ids, n_z)
-    residual_rows: list[Any] = []
-    tear_column = np.full(lowered.n_ids, -1, np.int64)
-    tear_column[schedule.tears] = lowered.n_x + np.arange(lowered.n_w)
-    for k in groups:
-        group = schedule.groups[k]
-        rows = _ones(needs(group), lowered.n_ids) @ depends
+    extra = [*lowered.schedule.invariants, *families]
+    if groups is None:
+        needed = np.concatenate([ids, *(f.var_rows.ravel() for f in extra)])
+        groups = [lowered.schedule.groups[k] for k in lowered.closure(needed, residuals=True)]
+    found = Dependence(lowered, groups, held)
+    n = len(lowered.schedule.invariants)
+    rows = [found.of_rows(f.var_rows) for f in extra]
+    return _stack([found.of_residuals(), *rows[:n], found.of_values(ids), *rows[n:]])
+
+
+class Dependence:
+    """Which elements of (x, w) every variable depends on, and the residuals of the iterated equations.
+
+    Dependence is propagated in evaluation order: what a block computes depends on what any of its inputs does. Where
+    variables are `held`, what is computed from them does not depend on what they would be.
+    """
+
+    def __init__(self, lowered: Lowered, groups: Iterable[Group], held: Ints = NO_IDS) -> None:
+        states, tears = lowered.schedule.states, lowered.schedule.tears
+        known = np.concatenate([states, tears])
+        self.n_z = len(known)
+        self.tear_position = lowered.tear_position
+        # sets of columns, one behind the other, and where those of each variable and of each residual are
+        self.columns = np.arange(max(self.n_z, 1))
+        self.used = self.n_z
+        self.begin, self.count = np.zeros((2, lowered.n_ids), np.int64)
+        self.begin[known], self.count[known] = np.arange(self.n_z), 1
+        self.seen = np.ones(lowered.n_ids, bool)
+        self.seen[held] = False
+        self.seen[known] = True
+        self.residual_begin, self.residual_count = np.zeros((2, len(tears)), np.int64)
+        for group in groups:
+            self._group(group)
+
+    def of_values(self, ids: Ints) -> Any:
+        """Pattern of the variables `ids` as they are computed."""
+        return self._matrix(self.begin[ids], self.count[ids])
+
+    def of_residuals(self) -> Any:
+        """Pattern of the residuals, in the order of the algebraic unknowns."""
+        return self._matrix(self.residual_begin, self.residual_count)
+
+    def of_rows(self, var_rows: Ints) -> Any:
+        """Pattern of equations between these variables, (n, any)."""
+        return self._matrix(*self._union(var_rows))
+
+    def _group(self, group: Group) -> None:
+        iterated = group.unknowns[:, group.kernel.tears if group.kernel.iterates else ()]
+        begin, count = self._union(np.concatenate([needs(group), iterated], axis=1))
+        position = self.tear_position[iterated]
+        self.residual_begin[position], self.residual_count[position] = begin[:, None], count[:, None]
+        explicit = np.ones(group.kernel.size, bool)
         if group.kernel.iterates:
-            own = tear_column[group.unknowns[:, group.kernel.tears]]
-            rows = rows + _pattern(np.repeat(np.arange(group.size), own.shape[1]), own.ravel(), group.size, n_z)
-            residual_rows.append(rows[np.repeat(np.arange(group.size), own.shape[1])])
-        explicit = [u for u in range(group.kernel.size) if not (group.kernel.iterates and u in group.kernel.tears)]
-        coo = rows.tocoo()
-        for u in explicit:
-            depends = depends + _pattern(group.var_rows[coo.row, u], coo.col, lowered.n_ids, n_z)
-    return depends, residual_rows
+            explicit[list(group.kernel.tears)] = False
+        ids = group.unknowns[:, explicit]
+        self.begin[ids], self.count[ids] = begin[:, None], count[:, None]
+
+    def _union(self, ids: Ints) -> tuple[Ints, Ints]:
+        """Where the unions of the sets of the variables in each row are; they are appended."""
+        n, width = ids.shape
+        count = np.where(self.seen[ids], self.count[ids], 0).ravel()
+        place = np.repeat(self.begin[ids].ravel() - np.cumsum(count) + count, count) + np.arange(count.sum())
+        row = np.repeat(np.repeat(np.arange(n), width), count)
+        keys = np.unique(row * max(self.n_z, 1) + self.columns[place])
+        row, columns = np.divmod(keys, max(self.n_z, 1))
+        while self.used + len(columns) > len(self.columns):
+            self.columns = np.concatenate([self.columns, np.zeros_like(self.columns)])
+        self.columns[self.used : self.used + len(columns)] = columns
+        counts = np.bincount(row, minlength=n)
+        begin = self.used + np.cumsum(counts) - counts
+        self.used += len(columns)
+        return begin, counts
+
+    def _matrix(self, begin: Ints, count: Ints) -> Any:
+        ends = np.cumsum(count)
+        place = np.repeat(begin - ends + count, count) + np.arange(count.sum())
+        shape = len(begin), self.n_z
+        return sparse.csr_matrix((np.ones(len(place), bool), self.columns[place], np.r_[0, ends]), shape=shape)
 
 
 def _stack(rows: list[Any]) -> Any:
-    pattern: Any = sparse.vstack(rows, format="csr").astype(bool)
-    pattern.sum_duplicates()
-    return pattern
-
-
-def _pattern(rows: Ints, columns: Ints, n: int, m: int) -> Any:
-    return sparse.csr_matrix((np.ones(len(rows), bool), (rows, columns)), shape=(n, m))
-
-
-def _ones(columns: Ints, n_ids: int) -> Any:
-    """Row i has ones in `columns[i]`."""
-    n, e = columns.shape
-    matrix = sparse.csr_matrix((np.ones(n * e, bool), columns.ravel(), np.arange(n + 1) * e), shape=(n, n_ids))
-    matrix.sum_duplicates()
-    return matrix
+    return sparse.vstack(rows, format="csr").astype(bool)

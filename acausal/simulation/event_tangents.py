@@ -13,10 +13,12 @@ from typing import Any
 
 import numpy as np
 
+from acausal.lowering.conditions import Conditions
 from acausal.lowering.hybrid import Piece
 from acausal.lowering.initial import EASE_ALGEBRAIC
-from acausal.lowering.initial_numeric import conditions_of, least_change
+from acausal.lowering.initial_numeric import least_change
 from acausal.lowering.numeric import NumericRun, evaluate_dual
+from acausal.passes.schedule import Group
 
 from .event_iteration import EventIteration, Move
 from .native_library import Floats
@@ -68,7 +70,7 @@ class EventTangents:
         dx = dx - np.outer(self._rate(last.t, last.z_after, p_after)[: low.n_x], tau)
         return self.with_algebraic(last.t, last.z_after, p_after, dx, moved, np.zeros(k)), moved
 
-    def _groups(self, purpose: str) -> list[int]:
+    def _groups(self, purpose: str) -> list[Group]:
         """Groups of the schedule that are needed for what switches, for what events change, or for the residuals."""
         hybrid, known = self.hybrid, self.hybrid.closures
         if purpose not in known:
@@ -78,7 +80,8 @@ class EventTangents:
                 "residuals": list[Any](),
             }[purpose]
             ids = np.concatenate([np.zeros(0, np.int64), *(rows.var_rows.ravel() for rows in pieces)])
-            known[purpose] = self.low.closure(ids, residuals=purpose == "residuals")
+            needed = self.low.closure(ids, residuals=purpose == "residuals")
+            known[purpose] = [self.low.schedule.groups[k] for k in needed]
         return known[purpose]
 
     def _inputs(self) -> slice:
@@ -171,15 +174,13 @@ class EventTangents:
             return dz[: low.n_x]
         ids = np.array(list(wanted), np.int64)
         problem = replace(self.iteration.problem, families=[], targets=ids)
-        x, w = move.z_after[: low.n_x], move.z_after[low.n_x :]
-        after = NumericRun(low, move.t, x, w, move.p, np.arange(low.n_x), dz, dp, tau)
-        made = conditions_of(problem, move.t, move.p, ids, np.zeros(len(ids)))
-        assert made is not None
-        rates = np.concatenate([after.residual[1], after.families(low.schedule.invariants)[1], after.gradient[ids]])
-        rates[low.n_w + low.n_g :] -= np.array([wanted[int(v)] for v in ids])
+        value = self.iteration.equations.values(move.t, move.z_after, move.p)
+        conditions = Conditions(problem, move.t, move.p, ids, value[ids])
+        d_wanted = np.array(list(wanted.values())).reshape(len(ids), dz.shape[1])
+        rates = conditions.rates(move.z_after, dz, dp, d_wanted, tau)
         columns = np.concatenate([np.flatnonzero(move.free), low.n_x + np.arange(low.n_w)])
         ease = np.concatenate([low.x_nominal, EASE_ALGEBRAIC * low.w_nominal])[columns]
-        dz[columns] += ease[:, None] * least_change(made[0](move.z_after)[1][:, columns], ease, rates)
+        dz[columns] += ease[:, None] * least_change(conditions(move.z_after)[1][:, columns], ease, rates)
         return dz[: low.n_x]
 
 

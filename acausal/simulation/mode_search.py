@@ -13,9 +13,10 @@ from typing import Any, Protocol
 import numpy as np
 
 from acausal.errors import SimulationError
+from acausal.lowering.conditions import Conditions
 from acausal.lowering.hybrid import Hybrid, Piece, Point
 from acausal.lowering.initial import ACCEPTED, EASE_ALGEBRAIC, InitialProblem
-from acausal.lowering.initial_numeric import conditions_of, gauss_newton_part
+from acausal.lowering.initial_numeric import gauss_newton_part
 from acausal.report import conditions_in_words
 
 from .native_library import Floats
@@ -237,13 +238,13 @@ class ModeSearch:
         """Consistent values near z with variables `ids` at the wanted values."""
         low = self.problem.lowered
         problem = replace(self.problem, families=[], targets=ids)
-        made = conditions_of(problem, t, p, ids, wanted)
-        if made is None:
+        conditions = Conditions(problem, t, p, ids, wanted)
+        if conditions.too_many:
             raise SimulationError(f"At t = {t:.12g} s the system is too large to be made consistent after an event.")
         columns = np.concatenate([np.flatnonzero(free), low.n_x + np.arange(low.n_w)])
         nominal = np.concatenate([low.x_nominal, low.w_nominal])
         ease = np.concatenate([low.x_nominal, EASE_ALGEBRAIC * low.w_nominal])
-        found, left = gauss_newton_part(made[0], z, nominal, ease, columns)
+        found, left = gauss_newton_part(conditions, z, nominal, ease, columns)
         if not np.isfinite(left).all() or np.max(left, initial=0.0) > ACCEPTED:
             raise SimulationError(
                 f"At t = {t:.12g} s the equations have no solution near the values before the event.\n"

@@ -10,8 +10,9 @@ import numpy as np
 
 from acausal.errors import InitializationError
 from acausal.language.template import Ints
+from acausal.lowering.conditions import Conditions
 from acausal.lowering.initial import EASE_ALGEBRAIC, given_starts
-from acausal.lowering.initial_numeric import conditions_of, least_change
+from acausal.lowering.initial_numeric import least_change
 from acausal.lowering.numeric import NumericRun
 
 from .event_iteration import left_starts
@@ -73,9 +74,8 @@ class StartTangents:
                     dz[position[index]] = 0.0
                     dz[position[index], k] = sign_of
         own = self.library is not None and own_conditions(problem, overrides)
-        j, rate = self._conditions(t0, started, dz, dp, None if own else ids)
-        n_w, n_g = low.n_w, low.n_g
-        rate[n_w + n_g : n_w + n_g + len(ids)] -= d_wanted
+        j, rate = self._conditions(t0, started, dz, dp, None if own else ids, d_wanted)
+        n_w = low.n_w
         fixed = given_at.fixed if given_at.conditions else np.ones(low.n_x, bool)
         free = np.concatenate([np.flatnonzero(~fixed), low.n_x + np.arange(n_w)])
         ease = np.concatenate([problem.ease, EASE_ALGEBRAIC * low.w_nominal])[free]
@@ -96,29 +96,29 @@ class StartTangents:
         return d_starts, starts
 
     def _conditions(
-        self, t0: float, started: Started, dz: Floats, dp: Floats, ids: Ints | None
+        self, t0: float, started: Started, dz: Floats, dp: Floats, ids: Ints | None, d_wanted: Floats
     ) -> tuple[Any, Floats]:
         """Jacobian of the start's conditions with respect to z, and their tangents (n_i, lanes).
 
         `ids` are the variables whose start is a condition, where these are not those that were compiled.
         """
+        problem = self.system.initial
+        low = problem.lowered
         if ids is None:
             library = self.library
             assert library is not None
             slope = library.conditions(started.p, t0, started.z0)[1]
-            return slope, library.conditions_tangent(started.p, dp, t0, started.z0, dz)
-        problem = self.system.initial
-        low = problem.lowered
-        x, w = started.z0[: low.n_x], started.z0[low.n_x :]
-        run = NumericRun(low, t0, x, w, started.p, np.arange(low.n_x), dz, dp)
-        invariants, extra = (run.families(f)[1] for f in (low.schedule.invariants, problem.families))
-        rate = np.concatenate([run.residual[1], invariants, run.gradient[ids], extra])
-        if not len(rate):
-            return np.zeros((0, low.n_x + low.n_w)), rate
-        found = conditions_of(problem, t0, started.p, ids, np.zeros(len(ids)))
-        if found is None:
+            rate = library.conditions_tangent(started.p, dp, t0, started.z0, dz)
+            rate[low.n_w + low.n_g : low.n_w + low.n_g + len(d_wanted)] -= d_wanted
+            return slope, rate
+        wanted = np.zeros(0)
+        if len(ids):
+            x, w = started.z0[: low.n_x], started.z0[low.n_x :]
+            wanted = NumericRun(low, t0, x, w, started.p, np.zeros(0, np.int64)).value[ids]
+        conditions = Conditions(problem, t0, started.p, ids, wanted)
+        if conditions.too_many:
             raise InitializationError(
                 "the start of this model is too large for the derivatives of this run; events=False and "
                 "engine='diffrax' do without"
             )
-        return found[0](started.z0)[1], rate
+        return conditions(started.z0)[1], conditions.rates(started.z0, dz, dp, d_wanted)

@@ -32,7 +32,7 @@ def large_file(lowered: Lowered, n_par: int, n_inputs: int, hybrid: Hybrid | Non
     plan = plan_factors(numbered, np.arange(n) < lowered.n_x)
     tables = families.tables
     colors = int(families.color.max(initial=-1)) + 1
-    bound = condition_pattern(lowered, np.zeros(0, np.int64), lowered.schedule.invariants)[lowered.n_w :].tocoo()
+    bound = condition_pattern(lowered)[lowered.n_w :].tocoo()
     g_color = np.asarray(color_columns(bound.tocsr()), np.int64)
     sizes = {
         "AC_N": n, "AC_NX": lowered.n_x, "AC_NZ": coo.nnz, "AC_NF": plan.size, "AC_NC": 0, "AC_NU": n_inputs,
