@@ -17,7 +17,7 @@ from ..errors import StructureError
 from ..language.flat_model import Family
 from .aliases import Reduced
 from .combine import Replacement, combine, describe
-from .singular_blocks import Parameters, always_singular, blocks_of_highest, point_nearby
+from .singular_blocks import Parameters, always_singular, point_nearby
 from .specialize import merge
 from .structure import IndexReduced, extended, reduce_index
 
@@ -87,7 +87,7 @@ def _replaced(current: Reduced, index: IndexReduced, replacements: list[Replacem
 
 
 def _replacements(index: IndexReduced, parameters: Parameters) -> list[Replacement]:
-    blocks = blocks_of_highest(index)
+    blocks = index.blocks
     random = np.random.default_rng(2017)
     singular = always_singular(index, blocks, np.ones(len(blocks), bool), parameters, random)
     if not singular.any():

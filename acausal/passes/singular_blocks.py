@@ -6,20 +6,18 @@ Judged by numbers: a Jacobian that is singular at several points in general posi
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from ..dae.strong_components import block_lower_triangular
 from ..language.flat_model import Bools, Family
 from ..language.template import Floats, Ints
 from ..symbolic.expr import Expr
 from ..symbolic.gradient import Sampler
 from .combine import Point, scaled
-from .structure import IndexReduced
+from .structure import Blocks, IndexReduced
 
 Parameters = Callable[[np.random.Generator], Floats]
 """Parameter values in general position, from a random generator."""
@@ -30,43 +28,6 @@ DENSE = 400
 """Blocks up to this size are judged by their singular values, larger ones by a sparse factorisation."""
 SINGULAR = 1e-10
 """Smallest singular value relative to the largest, after scaling, below which a matrix may be singular."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Blocks:
-    """Blocks of equations and their unknowns, the highest derivatives.
-
-    Attributes:
-        rows: row numbers, block after block.
-        ptr: start of each block in `rows`.
-        columns: matched column of each of `rows`.
-    """
-
-    rows: Ints
-    ptr: Ints
-    columns: Ints
-
-    def __len__(self) -> int:
-        return len(self.ptr) - 1
-
-    def rows_of(self, block: int) -> Ints:
-        """Row numbers of a block."""
-        return self.rows[self.ptr[block] : self.ptr[block + 1]]
-
-    @property
-    def block_of_row(self) -> Ints:
-        """Block of each of `rows`."""
-        return np.repeat(np.arange(len(self)), np.diff(self.ptr))
-
-
-def blocks_of_highest(index: IndexReduced) -> Blocks:
-    """Blocks of the equations that give the highest derivatives, in the order of their solution."""
-    rows = np.flatnonzero(index.top_assignment >= 0)
-    highest = index.unknown & (index.derivative_of < 0)
-    graph = index.rows.incidence(len(highest), highest).select(rows=rows)
-    sorted_ = block_lower_triangular(graph, index.top_assignment[rows])
-    picked = rows[sorted_.rows]
-    return Blocks(picked, sorted_.ptr, index.top_assignment[picked])
 
 
 def point_nearby(index: IndexReduced, parameters: Parameters, random: np.random.Generator) -> Point:

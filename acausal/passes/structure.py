@@ -9,6 +9,7 @@ import numpy as np
 
 from ..dae.incidence import Incidence
 from ..dae.pantelides import StructurallySingular, pantelides
+from ..dae.strong_components import block_lower_triangular
 from ..errors import StructureError
 from ..language.flat_model import Bools, Family, FlatModel, canonical
 from ..language.template import Ints
@@ -52,6 +53,33 @@ class Rows:
         return Incidence.from_coo(r[pick], c[pick], len(self), n_columns)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Blocks:
+    """Blocks of equations and their unknowns, the highest derivatives.
+
+    Attributes:
+        rows: row numbers, block after block.
+        ptr: start of each block in `rows`.
+        columns: matched column of each of `rows`.
+    """
+
+    rows: Ints
+    ptr: Ints
+    columns: Ints
+
+    def __len__(self) -> int:
+        return len(self.ptr) - 1
+
+    def rows_of(self, block: int) -> Ints:
+        """Row numbers of a block."""
+        return self.rows[self.ptr[block] : self.ptr[block + 1]]
+
+    @property
+    def block_of_row(self) -> Ints:
+        """Block of each of `rows`."""
+        return np.repeat(np.arange(len(self)), np.diff(self.ptr))
+
+
 @dataclass(eq=False)
 class IndexReduced:
     """The model with its hidden constraints.
@@ -89,6 +117,16 @@ class IndexReduced:
         lower = np.flatnonzero(self.row_derivative >= 0)
         before[self.row_derivative[lower]] = lower
         return before
+
+    @cached_property
+    def blocks(self) -> Blocks:
+        """Blocks of the equations that give the highest derivatives, in the order of their solution."""
+        rows = np.flatnonzero(self.top_assignment >= 0)
+        highest = self.unknown & (self.derivative_of < 0)
+        graph = self.rows.incidence(len(highest), highest).select(rows=rows)
+        sorted_ = block_lower_triangular(graph, self.top_assignment[rows])
+        picked = rows[sorted_.rows]
+        return Blocks(picked, sorted_.ptr, self.top_assignment[picked])
 
     def settle(self, flat: FlatModel) -> None:
         """Add the derivatives that differentiation brought in to the flat model itself."""

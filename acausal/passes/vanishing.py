@@ -16,8 +16,8 @@ from ..lowering.parameters import ParameterProgram
 from ..symbolic.expr import Expr, const, par, var
 from ..symbolic.traverse import leaves, substitute
 from .evaluate import evaluate_parameters
-from .singular_blocks import Blocks, always_singular, blocks_of_highest
-from .structure import IndexReduced
+from .singular_blocks import always_singular
+from .structure import Blocks, IndexReduced
 
 SHOWN = 6
 """Parameters that a message names."""
@@ -29,7 +29,7 @@ def vanishing_zeros(index: IndexReduced, program: ParameterProgram) -> Ints:
     random = np.random.default_rng(2017)
     zero = np.zeros(program.n_p, bool)
     zero[:n_par] = program.generic(random, keep_zeros=True)[:n_par] == 0
-    blocks = blocks_of_highest(index)
+    blocks = index.blocks
     holding = _holding(index, blocks, zero)
     singular = always_singular(index, blocks, holding, lambda r: program.generic(r, keep_zeros=True), random)
     marked = np.zeros(program.n_p, bool)

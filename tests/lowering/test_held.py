@@ -64,7 +64,7 @@ def strain(t: float) -> np.ndarray[Any, np.dtype[np.float64]]:
 
 
 @pytest.mark.parametrize("engine", ["native", "diffrax"])
-def test_chain_starts_where_its_positions_are_given(system: ac.System, engine: str) -> None:
+def test_chain_starts_where_its_positions_are_given(system: ac.System, engine: Any) -> None:
     assert f"wagons[{COUNT - 1}].coupling.s_rel" in system.states
     solution = system.simulate(0.05, parameters={"gap": 0.6}, saveat=[0.0, 0.05], rtol=1e-9, engine=engine)
     numbers = np.arange(1, COUNT + 1)
