@@ -23,6 +23,7 @@ from .passes.events import extract_events
 from .passes.guesses import infer_guesses
 from .passes.inputs import input_equations
 from .passes.regularize import regularize
+from .passes.reinits import check_reinits
 from .passes.schedule import make_schedule
 from .passes.specialize import specialize
 from .passes.states import select_states
@@ -142,6 +143,7 @@ def _passes(
     infer_guesses(schedule, reduced, program.default, program.starts(program.default, np))
     lowered = clock("lower", lambda: Lowered(schedule, _nominal(flat, reduced, len(low_index.unknown)), program.n_p))
     extended = _extended(reduced, flat.n_total)
+    check_reinits(flat, schedule, *extended)
     initial = specialize(flat.initial, *extended)
     with_start = ~np.isnan(flat.start)
     for assignment in flat.start_assignments:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -114,8 +115,9 @@ def make_report(system: System) -> Report:
 
 
 def explain_initial(
-    system: System, x0: np.ndarray, w0: np.ndarray, p: np.ndarray, left: np.ndarray, t0: float
-) -> str:
+    system: System, x0: np.ndarray, w0: np.ndarray, p: np.ndarray, left: np.ndarray, t0: float,
+    initial: Mapping[str, Any],
+) -> str:  # fmt: skip
     """Why an initialization failed: the conditions that cannot be met, with their sources."""
     problem, flat, low = system.initial, system.stages.flat, system.lowered
     values = np.asarray(low.observe(t0, x0, w0, p))
@@ -123,11 +125,11 @@ def explain_initial(
     entries: list[tuple[float, str]] = []
     texts: list[str] = []
     texts += conditions_in_words(system.stages.schedule)
-    texts += [_fixed(flat, int(v), starts, values) for v in problem.targets]
-    extra = [flat.equation_line(f, k) for f in problem.families for k in range(f.size)]
-    while len(texts) + len(extra) < len(left):
-        texts.append("a value given as simulate(initial={...})")
-    texts += extra
+    given = _given(system, initial, values)
+    at = {int(v): i for i, v in enumerate(low.schedule.states)}
+    texts += [_fixed(flat, int(v), starts, values) for v in problem.targets if int(v) not in given]
+    texts += [text for v, text in given.items() if v not in at]
+    texts += [flat.equation_line(f, k) for f in problem.families for k in range(f.size)]
     if len(left):
         distances = [float(r) if np.isfinite(r) else np.inf for r in left]
         entries = sorted(zip(distances, texts, strict=False), key=lambda e: -e[0])
@@ -142,16 +144,28 @@ def explain_initial(
         lines.append(f"Not finite at the start: {', '.join(bad[:8])}")
         cause = system.diagnose_nonfinite(t0, x0, w0, p)
         lines += [cause] if cause else []
-    fixed = [n for n, f in zip(system.states, problem.fixed, strict=True) if f]
+    mask = problem.fixed.copy()
+    mask[[at[v] for v in given if v in at]] = True
+    fixed = [n for n, f in zip(system.states, mask, strict=True) if f]
     if fixed:
-        held = [f"{n} = {v:.6g}" for n, v, f in zip(system.states, x0, problem.fixed, strict=True) if f]
+        held = [f"{n} = {v:.6g}" for n, v, f in zip(system.states, x0, mask, strict=True) if f]
         lines.append(f"Held exactly (fixed start values): {_few(tuple(held))}")
         lines += declared(flat, map(_owner, fixed))
     lines.append(
-        "Try: fewer `fixed=True` start values where the conditions contradict each other, or better guesses (start "
-        "values) for the variables named here."
+        f"Try: fewer `fixed=True` start values {'or names in `initial=` ' if initial else ''}where the conditions "
+        "contradict each other, or better guesses (start values) for the variables named here."
     )
     return "\n".join(lines)
+
+
+def _given(system: System, initial: Mapping[str, Any], values: np.ndarray) -> dict[int, str]:
+    """Reduced variables that `initial` gives a value, in order, with what there is to say of each."""
+    found: dict[int, str] = {}
+    for v, wanted in system._overrides(initial, np).items():
+        got = f", but the other conditions give {values[v]:.6g}" if v < len(values) and np.isfinite(values[v]) else ""
+        name = system.stages.flat.name(v)
+        found[v] = f"`{name}` has the value {float(wanted):.6g} from simulate(initial={{...}}){got}"
+    return found
 
 
 def _owner(name: str) -> str:

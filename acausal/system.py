@@ -255,6 +255,7 @@ class System:
         """Further fixed starts: reduced variable index to value."""
         representative, sign = self.observed_ids
         overrides: dict[int, Any] = {}
+        names: dict[int, str] = {}
         for name, value in (initial or {}).items():
             ids = self.index_of(name)
             values = xp.ravel(xp.broadcast_to(xp.asarray(value, float), np.shape(ids)))
@@ -263,11 +264,26 @@ class System:
                     raise InitializationError(
                         f"`{name}` is always zero in this model and cannot be given a start value"
                     )
-                overrides[int(representative[index])] = values[k] * int(sign[index])
+                number, given = int(representative[index]), values[k] * int(sign[index])
+                other = names.setdefault(number, name)
+                if other != name and is_concrete((given, overrides[number])) and given != overrides[number]:
+                    related = "opposite" if self._opposite(other, name) else "equal"
+                    raise InitializationError(
+                        f"simulate(initial=...) gives `{other}` and `{name}` values that are not {related}, as they "
+                        "are in this model: give one of them"
+                    )
+                overrides[number] = given
         return overrides
 
-    def check_initial(self, x0: Any, w0: Any, p: Any, left: Any, t0: Any = 0.0) -> None:
-        """Check concrete results of `initialize_with_residual`, at the start time t0 [s].
+    def _opposite(self, a: str, b: str) -> bool:
+        """Whether two aliases have opposite signs."""
+        sign = self.observed_ids[1]
+        return bool((sign[np.ravel(self.index_of(a))[0]] * sign[np.ravel(self.index_of(b))[0]]) < 0)
+
+    def check_initial(
+        self, x0: Any, w0: Any, p: Any, left: Any, t0: Any = 0.0, initial: Mapping[str, Any] | None = None
+    ) -> None:
+        """Check concrete results of `initialize_with_residual`, at the start time t0 [s] with start values `initial`.
 
         Raises:
             DeclarationError: a parameter has a value outside its bounds.
@@ -280,7 +296,7 @@ class System:
         if np.isfinite(values).all() and (not np.size(left) or float(np.max(np.asarray(left))) <= ACCEPTED):
             return
         arrays = np.asarray(x0), np.asarray(w0), np.asarray(p), np.asarray(left)
-        raise InitializationError(explain_initial(self, *arrays, float(t0)))
+        raise InitializationError(explain_initial(self, *arrays, float(t0), initial or {}))
 
     def diagnose_nonfinite(self, t: Any, x: Any, w: Any, p: Any) -> str | None:
         """Which equation gives NaN or infinity at a point, as text; None if none does. Concrete values only."""

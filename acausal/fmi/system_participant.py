@@ -235,7 +235,7 @@ class SystemParticipant:
             z0, p, left = self._inner.start(t0, p, starts, self._solve_start(t0, starts, overrides), matrix)
         else:
             z0, left = self._solve_start(t0, starts, overrides)(p)
-        system.check_initial(z0[: system.lowered.n_x], z0[system.lowered.n_x :], p, left, t0)
+        system.check_initial(z0[: system.lowered.n_x], z0[system.lowered.n_x :], p, left, t0, self.initial)
         self._p = np.asarray(p, float)
         self._state = (z0, 0.0)
 

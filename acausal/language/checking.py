@@ -112,13 +112,7 @@ def _checked_structural(cls: type[Instance], field: Structural, value: Any) -> A
         return value  # resolved where the owner is known
     wanted = field.annotation
     if wanted is tuple:
-        found = numbers(value)
-        if found is None:
-            raise DeclarationError(
-                f"`{cls.__name__}({field.name}={value!r})`: `{field.name}` takes a sequence of numbers, or one of rows "
-                f"of numbers, not {type(value).__name__} {call_site()}"
-            )
-        return found
+        return _checked_numbers(cls, field, value)
     integer = wanted is int and hasattr(value, "__index__") and not isinstance(value, bool)
     if type(value) is not wanted and not integer:
         raise DeclarationError(
@@ -126,6 +120,27 @@ def _checked_structural(cls: type[Instance], field: Structural, value: Any) -> A
             f"{wanted.__name__}, not {type(value).__name__} {call_site()}"
         )
     return int(value) if wanted is int else value
+
+
+def _checked_numbers(cls: type[Instance], field: Structural, value: Any) -> Any:
+    """Numbers or rows of numbers, as the field declares them."""
+    found = numbers(value)
+    wrong = ""
+    if found is None:
+        either = "a sequence of numbers, or one of rows of numbers"
+        wanted = either if field.rows is None else "rows of numbers" if field.rows else "a sequence of numbers"
+        wrong = f"takes {wanted}{' only' if isinstance(value, (list, tuple)) else f', not {type(value).__name__}'}"
+    elif field.rows and not all(isinstance(row, tuple) for row in found):
+        wrong = "takes rows of numbers, as in ((1.0, 2.0), (3.0, 4.0)), not numbers"
+    elif field.rows and len({len(row) for row in found}) > 1:
+        wrong = f"takes rows that are equally long, not of {', '.join(str(len(row)) for row in found)} numbers"
+    elif field.rows is False and any(isinstance(item, tuple) for item in found):
+        wrong = "takes numbers, not rows of numbers"
+    elif any(x != x for item in found for x in (item if isinstance(item, tuple) else (item,))):
+        wrong = "holds NaN"
+    if wrong:
+        raise DeclarationError(f"`{cls.__name__}({field.name}={value!r})`: `{field.name}` {wrong} {call_site()}")
+    return found
 
 
 def _checked_child(cls: type[Instance], name: str, value: Any) -> Any:

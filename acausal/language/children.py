@@ -89,7 +89,20 @@ def effective_child(owner: Instance, name: str) -> Any:
     child = default if given is None else merged(default, given)
     if isinstance(child, Array) and child._length is None:
         return _with_length(owner, name, child)
+    check_length(owner, name, default, child)
     return child
+
+
+def check_length(owner: Instance, name: str, default: Any, child: Any) -> None:
+    """Raise DeclarationError for a list of components in the place of an array of another length."""
+    if not isinstance(child, list) or not isinstance(default, Array):
+        return
+    wanted = len(default) if default._length is not None else len(_with_length(owner, name, default))
+    if wanted != len(child):
+        raise DeclarationError(
+            f"`{type(owner).__name__}({name}=[...])`: a list of {len(child)} components in the place of an array of "
+            f"{wanted}: its length is {default._count!r}"
+        )
 
 
 def _with_length(owner: Instance, name: str, child: Array[Any]) -> Array[Any]:

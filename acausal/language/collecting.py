@@ -115,7 +115,7 @@ def _collect_one(
                 f"`{cls.__name__}.{name}: {annotation} = {value!r}`: a structural parameter that is a tuple holds "
                 f"numbers, or rows of numbers ({cls._source[0]}:{cls._source[1]})"
             )
-        descriptor = Structural(name, rows, tuple)
+        descriptor = Structural(name, rows, tuple, _annotated_rows(annotation))
         structural[name] = descriptor
         type.__setattr__(cls, name, descriptor)
     elif isinstance(value, float) and annotation is not None and "ClassVar" not in str(annotation):
@@ -124,3 +124,10 @@ def _collect_one(
             f"Parameter({value!r})` for a quantity that can change without compiling again "
             f"({cls._source[0]}:{cls._source[1]})"
         )
+
+
+def _annotated_rows(annotation: Any) -> bool | None:
+    """Whether ``Sequence[Sequence[float]]`` or the like is annotated, not ``Sequence[float]``; None if neither is."""
+    text = annotation if isinstance(annotation, str) else str(annotation)
+    depth = sum(text.count(f"{kind}[") for kind in ("Sequence", "tuple", "list"))
+    return None if "|" in text or depth not in (1, 2) else depth == 2

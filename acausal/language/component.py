@@ -43,6 +43,8 @@ class Component(Instance):
         super().__init_subclass__(**kwargs)
         cls._partial = partial
         frame = sys._getframe(1)
+        while frame.f_globals.get("__name__") == "types" and frame.f_back is not None:  # made by `types.new_class`
+            frame = frame.f_back
         cls._source = (frame.f_code.co_filename, frame.f_lineno)
         collect(cls)
         for name in ("equations", "initial_equations"):
@@ -135,7 +137,10 @@ def fitting_class(cls: type[C], old: Mapping[str, Any], new: Mapping[str, Any]) 
     fitting = declared_class(cls)
     if fitting._sizes:
         structural = {k: checked(fitting, k, v) for k, v in new.items() if k in fitting._structural}
-        fitting = sized(fitting, {**old, **structural})
+        try:
+            fitting = sized(fitting, {**old, **structural})
+        except DeclarationError as error:
+            raise DeclarationError(f"{error} {call_site()}") from None
     return with_unknowns(fitting, {**old, **new})
 
 

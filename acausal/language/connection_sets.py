@@ -21,6 +21,33 @@ from .template import Ints, Path, Template
 Edge = tuple[Ints, Ints, int]
 
 
+@dataclass(frozen=True, slots=True)
+class End:
+    """One end of a connect statement.
+
+    Attributes:
+        bases: first variables of the connectors, or the signals: (instances, *slice).
+        template: of the connector; None for signals.
+        inside: whether it belongs to a part of the component whose statement this is.
+        gives: whether it is a signal that comes from this side: the output of a part, or the component's own input.
+    """
+
+    bases: Ints
+    template: Template | None
+    inside: bool
+    gives: bool
+
+
+@dataclass(slots=True)
+class SignalEdges:
+    """Signals joined by one connect statement: faces, as nodes of the graph, and those among them that give a value."""
+
+    a: Ints
+    b: Ints
+    giving: Ints
+    source: int
+
+
 @dataclass(slots=True)
 class ConnectionGraph:
     """Connector faces joined by connect statements.
@@ -32,7 +59,7 @@ class ConnectionGraph:
     templates: dict[Any, Template] = field(default_factory=dict[Any, Template])
     connectors: dict[Any, list[tuple[Ints, Path]]] = field(default_factory=dict[Any, list[tuple[Ints, Path]]])
     edges: dict[Any, list[Edge]] = field(default_factory=dict[Any, list[Edge]])
-    signals: list[Edge] = field(default_factory=list[Edge])
+    signals: list[SignalEdges] = field(default_factory=list[SignalEdges])
 
     def add_connectors(self, template: Template, base: Ints, path: Path) -> None:
         """Note instances of a connector class (only outermost connectors: nested ones belong to their owner)."""
@@ -40,17 +67,19 @@ class ConnectionGraph:
         self.templates.setdefault(key, template)
         self.connectors.setdefault(key, []).append((base, path))
 
-    def add(self, item: Connect, ends: list[tuple[Ints, Template | None, bool]], source: int, origin: Origin) -> None:
-        """One connect statement: `ends` are (bases (instances, *slice), template, inside)."""
+    def add(self, item: Connect, ends: list[End], source: int, origin: Origin) -> None:
+        """One connect statement."""
         first = ends[0]
         for end in ends[1:]:
-            a, b = _fit(first[0], end[0], item, origin)
-            if first[1] is None or end[1] is None:
-                self.signals.append((a, b, source))
+            a, b = _fit(first.bases, end.bases, item, origin)
+            a, b = 2 * a + (not first.inside), 2 * b + (not end.inside)
+            if first.template is None or end.template is None:
+                giving = np.concatenate([a[:0], *([a] if first.gives else []), *([b] if end.gives else [])])
+                self.signals.append(SignalEdges(a, b, giving, source))
                 continue
-            key = _interface(first[1])
-            self.templates.setdefault(key, first[1])
-            self.edges.setdefault(key, []).append((2 * a + (not first[2]), 2 * b + (not end[2]), source))
+            key = _interface(first.template)
+            self.templates.setdefault(key, first.template)
+            self.edges.setdefault(key, []).append((a, b, source))
 
 
 def _interface(template: Template) -> Any:
@@ -82,6 +111,37 @@ def _fit(a: Ints, b: Ints, item: Connect, origin: Origin) -> tuple[Ints, Ints]:
         )
     a, b = np.broadcast_arrays(a, b)
     return a.ravel(), b.ravel()
+
+
+def check_signals(edges: list[SignalEdges], root: Template, sources: list[Source]) -> None:
+    """A signal comes from one side at most.
+
+    Raises:
+        ConnectError: outputs of several components are joined (a vector of outputs with one input, say).
+    """
+    giving = np.concatenate([np.zeros(0, np.int64), *(e.giving for e in edges)])
+    if len(giving) < 2:
+        return
+    a, b = np.concatenate([e.a for e in edges]), np.concatenate([e.b for e in edges])
+    statement = np.concatenate([np.full(len(e.giving), e.source) for e in edges])
+    nodes, inverse = np.unique(np.concatenate([a, b]), return_inverse=True)
+    ia, ib = inverse[: len(a)], inverse[len(a) :]
+    n = len(nodes)
+    _, label = connected_components(coo_matrix((np.ones(len(a), np.int8), (ia, ib)), shape=(n, n)), directed=False)
+    givers, first = np.unique(giving, return_index=True)
+    its_set = label[np.searchsorted(nodes, givers)]
+    crowded = np.flatnonzero(np.bincount(its_set, minlength=1) > 1)
+    if not len(crowded):
+        return
+    which = np.flatnonzero(its_set == crowded[0])
+    names = {offset: path_text(path) for path, offset in root.leaf_names(False)}
+    rows = [(names[int(givers[k]) >> 1], sources[int(statement[first[k]])].origin) for k in which]
+    raise ConnectError(
+        "outputs are joined, but a signal comes from one of them only:\n"
+        + "".join(f"    {name}    {origin}\n" for name, origin in rows)
+        + "Try: of a vector of outputs connect the element that is meant, `connect(table.y[0], gain.u)`; or combine "
+        "the outputs by a block (`Add`, `Sum`, `Switch`)"
+    )
 
 
 @dataclass(slots=True)
@@ -129,8 +189,10 @@ def solve_connections(
         kept: by interface, for the offset of a quantity the edges over which it is equal, where these are not all.
     """
     out = _Collector()
-    for a, b, source in graph.signals:
-        out.alias.append((a, b, 1, np.full(len(a), source), np.arange(len(a))))
+    check_signals(graph.signals, root, sources)
+    for edges in graph.signals:
+        n = len(edges.a)
+        out.alias.append((edges.a >> 1, edges.b >> 1, 1, np.full(n, edges.source), np.arange(n)))
     for key in graph.connectors | graph.edges:
         _solve_interface(graph, key, sources, out, kept.get(key, {}))
     return out.joined()

@@ -274,12 +274,17 @@ class Parameter(Declaration):
 
 
 class Structural:
-    """Descriptor of a structural parameter (a plain int, bool, str or tuple of numbers of the class body)."""
+    """Descriptor of a structural parameter (a plain int, bool, str or tuple of numbers of the class body).
 
-    def __init__(self, name: str, default: Any, annotation: type) -> None:
+    Attributes:
+        rows: whether a tuple holds rows of numbers (a matrix), or numbers; None where its annotation allows both.
+    """
+
+    def __init__(self, name: str, default: Any, annotation: type, rows: bool | None = None) -> None:
         self.name = name
         self.default = default
         self.annotation = annotation
+        self.rows = rows
 
     def __get__(self, instance: Any, owner: type[Any]) -> Any:
         if instance is None:

@@ -16,14 +16,15 @@ from ..symbolic.equation import DEFINITION, Equation, Origin
 from ..symbolic.expr import Expr, as_expr, intern_node, symbol
 from ..symbolic.traverse import leaves, substitute
 from .checking import numbers
-from .children import effective_child, merged, present, with_structure
+from .children import check_length, effective_child, merged, present, with_structure
 from .component import Component, Connector, with_modifications
 from .connections import Connect
 from .declarations import STATE_SELECT, Declaration, Kind, Start
 from .events import Assert, When
 from .fields import Array, Shared, view
-from .instance import path_text, record
+from .instance import call_site, path_text, record
 from .overdetermined import Choice, DerivativeRule, Mark
+from .places import has_place, located
 from .template import (
     Attributes,
     Binding,
@@ -68,7 +69,12 @@ class Elaborator:
     def root(self, component: Component) -> tuple[Template, Attributes]:
         """Template and numbers of a whole model."""
         _reject_unresolved(component, ())
-        return self.elaborate(component, ())
+        try:
+            return self.elaborate(component, ())
+        except DeclarationError as error:
+            if not has_place(str(error)):
+                error.args = (f"{error} {call_site()}".rstrip(),)
+            raise
 
     def elaborate(self, component: Component, step: Path) -> tuple[Template, Attributes]:
         """Template and numbers of one component, `step` below the component on top of the stack."""
@@ -113,7 +119,8 @@ class Elaborator:
         for name in cls._children:
             if not present(component, name):
                 continue
-            slot, attributes = self._child(component, name)
+            with located(cls, name):
+                slot, attributes = self._child(component, name)
             template.add_child(slot)
             parts.extend(attributes)
         template.bindings = self.stack[-1].bindings
@@ -203,6 +210,7 @@ class Elaborator:
         given = component.__dict__["_mods"].get(name)
         default = resolve_scope(with_structure(descriptor.default, component), cls, len(self.stack) - 1)
         child = default if given is None else merged(default, given)
+        check_length(component, name, default, child)
         role = ""
         if isinstance(child, Shared):
             role, child = child.role, child.component
@@ -532,10 +540,10 @@ def _run(scope: Component, method: str) -> Any:
 
 
 def _located(generator: types.GeneratorType[Any, Any, Any], cls: type[Component], method: str) -> Iterator[Any]:
-    """Items of a generator; a TypeError inside (a symbol used as a number or a condition) gets the user's line."""
+    """Items of a generator; an error inside (a symbol used as a number, say) gets the user's line."""
     try:
         yield from generator
-    except (TypeError, ZeroDivisionError) as error:
+    except (TypeError, ValueError, ArithmeticError, LookupError) as error:
         package = os.path.dirname(os.path.dirname(__file__))
         frames = [f for f in traceback.extract_tb(error.__traceback__) if not f.filename.startswith(package)]
         place = f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""

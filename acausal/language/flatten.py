@@ -14,7 +14,7 @@ from ..symbolic.equation import Origin
 from ..symbolic.expr import ONE, ZERO, Expr, intern_node, par, var
 from ..symbolic.traverse import leaves, rewrite, substitute
 from .component import Component
-from .connection_sets import ConnectionGraph, solve_connections
+from .connection_sets import ConnectionGraph, End, solve_connections
 from .declarations import Kind
 from .elaborate import Elaborator
 from .flat_model import Assignment, Family, FlatModel, Source, canonical
@@ -132,12 +132,12 @@ class Flattener:
         if issubclass(template.cls, Overdetermined):
             self.loops.add_nodes(visit.var_base, visit.path)
         for mark, origin in template.marks:
-            ids = [self._connector(visit, path)[0] for path in mark.paths]
+            ids = [self._ids(visit, path) for path in mark.paths]
             self.loops.add_mark(mark, ids, Source(origin, visit.path, 1))
         self.choices += [(visit, choice) for choice in template.choices]
         for item, origin in template.connections:
             source = self._source(visit, origin, 1)
-            self.graph.add(item, [self._connector(visit, path) for path in item.paths], source, origin)
+            self.graph.add(item, [self._end(visit, path) for path in item.paths], source, origin)
         for binding in template.bindings:
             self._emit_binding(visit, binding)
 
@@ -154,14 +154,20 @@ class Flattener:
             reference = inner.resolve(path[1:])
         return np.add.outer(p, reference.par_offsets) if parameter else np.add.outer(v, reference.offsets)
 
-    def _connector(self, visit: Visit, path: Path) -> tuple[Ints, Template | None, bool]:
+    def _end(self, visit: Visit, path: Path) -> End:
         reference = visit.template.resolve(path)
-        return self._ids(visit, path), reference.template, reference.inside
+        gives = False
+        if reference.declaration is not None and reference.inside:
+            owner = visit.template.resolve(path[:-1]).template
+            gives = reference.declaration.kind == Kind.OUTPUT and owner is not None and owner.has_behaviour()
+        elif reference.declaration is not None:
+            gives = reference.declaration.kind == Kind.INPUT and len(path) == 1  # not a signal of an own connector
+        return End(self._ids(visit, path), reference.template, reference.inside, gives)
 
     def choose(self, forest: Forest) -> None:
         """The equations that depend on the connection graph, for the instances that they hold for."""
         for visit, choice in self.choices:
-            nodes = self._connector(visit, choice.condition.path)[0]
+            nodes = self._ids(visit, choice.condition.path)
             chosen = holds(choice.condition, nodes, forest) == choice.wanted
             if chosen.any():
                 role: Role = "initial" if choice.initial else "equation"

@@ -211,6 +211,11 @@ class Template:
             par_offset = par_offset + p if plain else np.add.outer(par_offset, p)
         return Reference(offset, par_offset, None, template, outer, inside)
 
+    def has_behaviour(self) -> bool:
+        """Whether the component says something about its quantities, and is no mere place for them."""
+        said = self.equations or self.connections or self.actions or self.choices
+        return bool(said) or any(not t.is_connector for slot in self.children.values() for t in slot.templates)
+
     def leaf_names(self, is_par: bool) -> Iterator[tuple[Path, int]]:
         """Every variable (or parameter) below, in order, with its offset; arrays of components unrolled."""
         for name, (par, offset) in self.own.items():

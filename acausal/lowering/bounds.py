@@ -9,8 +9,8 @@ import numpy as np
 from ..errors import DeclarationError, InitializationError
 from ..language.declarations import Declaration
 from ..language.flat_model import FlatModel
+from ..language.places import field_place
 from ..language.template import Floats, Template
-from ..passes.places import field_place
 
 SHOWN = 5
 """Parameters named in one message."""

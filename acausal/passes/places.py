@@ -2,31 +2,16 @@
 
 from __future__ import annotations
 
-import linecache
 import re
 from collections.abc import Iterable, Iterator
 
-from ..language.component import Component
 from ..language.flat_model import FlatModel
+from ..language.places import field_place
 from ..language.template import Template
 from ..symbolic.printing import path_text
 
 SHOWN = 8
 """Lines of one kind."""
-
-
-def field_place(cls: type[Component], name: str) -> tuple[str, str]:
-    """Source text and ``file:line`` of the field `name` in the class body that declares it."""
-    owner = next((base for base in cls.__mro__ if name in base.__dict__ and issubclass(base, Component)), cls)
-    file, first = owner._source
-    lines = linecache.getlines(file)
-    for number in range(first, len(lines)):
-        text = lines[number]
-        if re.match(rf"\s+{re.escape(name)}\s*[:=]", text):
-            return text.strip(), f"{file}:{number + 1}"
-        if text.strip() and not text[0].isspace() and not text.startswith((")", "]", "#")):
-            break
-    return "", f"{file}:{first} ({owner.__name__})"
 
 
 def owner_of(root: Template, path: str) -> tuple[Template, str] | None:

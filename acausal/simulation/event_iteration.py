@@ -362,7 +362,8 @@ class EventIteration(ModeSearch):
             again = self.event(t0, outcome.z, outcome.p, samples=due)
             again.changed = [*seen, *outcome.changed, *again.changed]
             outcome, self.moves = again, [*earlier, *self.moves]
-        outcome.ended = outcome.ended or ended
+        if ended and not outcome.ended:  # what ends a run at its start is the event it has
+            outcome.ended, outcome.changed = ended, list(dict.fromkeys([*seen, *outcome.changed]))
         return outcome, left
 
     def _first_modes(self, t0: float, p: Floats, solve: Callable[[Floats], tuple[Floats, Floats]]) -> Any:

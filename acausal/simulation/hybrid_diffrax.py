@@ -163,7 +163,7 @@ class DiffraxModel:
 
         outcome, left = iteration.start(t0, p, starts, solve)
         if check:
-            system.check_initial(outcome.z[: low.n_x], outcome.z[low.n_x :], outcome.p, left, t0)
+            system.check_initial(outcome.z[: low.n_x], outcome.z[low.n_x :], outcome.p, left, t0, given.initial)
         return Started(outcome.z, outcome.p, left, mask, iteration, outcome, iteration.moves)
 
     def run(

@@ -119,7 +119,7 @@ class NativeModel:
             outcome, left = iteration.start(t0, p, starts, solve)
             z0, p = outcome.z, outcome.p
         if check:
-            system.check_initial(z0[: problem.lowered.n_x], z0[problem.lowered.n_x :], p, left, t0)
+            system.check_initial(z0[: problem.lowered.n_x], z0[problem.lowered.n_x :], p, left, t0, given.initial)
         else:
             check_parameters(program.flat, p)
         return Started(z0, p, left, mask, iteration, outcome, [] if iteration is None else iteration.moves)

@@ -34,7 +34,7 @@ def start(
     found = at_once(t0, parameters, initial, *further) if at_once is not None else None
     if found is not None:
         if check:
-            system.check_initial(*found, t0)
+            system.check_initial(*found, t0, initial)
         x0, w0, p, _ = (jnp.asarray(a, float) for a in found)
         return x0, w0, p, 0.0
     arguments = (jnp.asarray(t0, float), given, starts, *further)
@@ -49,5 +49,5 @@ def start(
     compiled, seconds = compiled_for(system.lowered, "start", run, arguments)
     x0, w0, p, *left = compiled(*arguments)
     if left and check:
-        system.check_initial(x0, w0, p, left[0], t0)
+        system.check_initial(x0, w0, p, left[0], t0, initial)
     return x0, w0, p, seconds

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -205,17 +206,31 @@ def test_extractor() -> None:
         simulated([0.4, 0.6], *joints, pick=blocks.Extractor(nin=2), **parts)
 
 
-@pytest.mark.parametrize(("block", "text"), [
-    (blocks.ExtractSignal(nin=2, extract=[3]), "no numbers from 1 to 2"),
-    (blocks.MinMax(nu=0), "no smallest of no signals"),
-    (blocks.MatrixGain(K=[[1.0, 2.0], [3.0]]), "different lengths"),
-    (blocks.PadeDelay(n=2, m=3), "n=2, m=3"),
-    (discrete.TransferFunction(b=[1.0, 2.0]), "b not longer than a"),
-    (discrete.StateSpace(C=[[1.0]]), r"should have 1 rows of 2 numbers"),
+ROWS: Any = [[1.0]]
+FLAT: Any = [1.0]
+
+
+@pytest.mark.parametrize(("make", "text"), [
+    (lambda: blocks.ExtractSignal(nin=2, extract=[3]), "no numbers from 1 to 2"),
+    (lambda: blocks.MinMax(nu=0), "no smallest of no signals"),
+    (lambda: blocks.MatrixGain(K=[[1.0, 2.0], [3.0]]), "`K` takes rows that are equally long, not of 2, 1 numbers"),
+    (lambda: blocks.PadeDelay(n=2, m=3), "n=2, m=3"),
+    (lambda: discrete.TransferFunction(b=[1.0, 2.0]), "b is not longer than a"),
+    (lambda: blocks.TransferFunction(a=[]), "both have coefficients"),
+    (lambda: blocks.TransferFunction(b=[1.0], a=[0.0, 1.0]), "is not 0"),
+    (lambda: blocks.TransferFunction(b=[float("nan")], a=[1.0, 2.0]), "`b` holds NaN"),
+    (lambda: blocks.TransferFunction(b=ROWS, a=[1.0, 2.0]), "`b` takes numbers, not rows of numbers"),
+    (lambda: discrete.StateSpace(C=[[1.0]]), r"C=\(\(1.0,\),\) should have 1 rows of 2 numbers"),
+    (lambda: blocks.StateSpace(A=[[1.0]], B=FLAT, C=[[1.0]]), "`B` takes rows of numbers, as in"),
+    (lambda: blocks.TimeTable(table=[[0, 1], [1], [2, 3]]), "`table` takes rows that are equally long, not of 2, 1, 2"),
+    (lambda: blocks.TimeTable(table=[[0, 1, 2], [1, 2, 3]]), "rows of a time and a value"),
+    (lambda: blocks.TimeTable(table=[[0.0, 1.0], [-1.0, 2.0]]), "whose first coordinate increases"),
+    (lambda: blocks.CombiTimeTable(table=[]), "the table has no rows"),
 ])  # fmt: skip
-def test_blocks_that_are_none(block: Component, text: str) -> None:
-    with pytest.raises(ac.DeclarationError, match=text):
-        ac.compile(assemble(block=block))
+def test_blocks_that_are_none(make: Callable[[], Component], text: str) -> None:
+    with pytest.raises(ac.DeclarationError, match=text) as caught:
+        ac.compile(assemble(block=make()))
+    assert "test_blocks.py" in str(caught.value)
 
 
 # ---- linear systems ---------------------------------------------------------------------------------

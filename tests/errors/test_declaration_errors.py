@@ -66,6 +66,87 @@ CASES = {
         """,
         ["`v=start(2.0, fixed=True)`"],
     ),
+    "matrices that do not fit, found when the equations are made": (
+        """
+        from acausal.components import blocks
+
+        class M(Component):
+            plant: blocks.StateSpace = blocks.StateSpace(A=[[0, 1], [-4, 0]], B=[[1]], C=[[1, 0]])  # HERE
+
+        ac.compile(M())
+        """,
+        ["B=((1.0,),) should have 2 rows of 1 numbers", "Written in:\n    plant: blocks.StateSpace = "],
+    ),
+    "a whole model that is no table": (
+        """
+        from acausal.components import blocks
+
+        ac.compile(blocks.TimeTable(table=[[0, 1], [-1, 2]]))  # HERE
+        """,
+        ["whose first coordinate increases"],
+    ),
+    "fewer values than an array has elements": (
+        """
+        class M(Component):
+            r: Array[Resistor] = Array(Resistor(), 3)  # HERE
+
+        ac.compile(M(r=Resistor(R=[1.0, 2.0])))
+        """,
+        ["component array `r.R` has 3 elements but was given 2 values"],
+    ),
+    "a list that is shorter than the array": (
+        """
+        class M(Component):
+            n: int = 3
+            r: Array[Resistor] = Array(Resistor(), "n")  # HERE
+
+        ac.compile(M(r=[Resistor(), Resistor()]))
+        """,
+        ["a list of 2 components in the place of an array of 3: its length is 'n'"],
+    ),
+    "an error of Python in equations": (
+        """
+        class M(Component):
+            rows: tuple[tuple[float, ...], ...] = ((0.0, 1.0), (1.0, 2.0))
+            x: Variable = Variable()
+
+            def equations(self):
+                yield self.x == self.rows[2][0]  # HERE
+
+        ac.compile(M())
+        """,
+        ["in `M.equations`", "tuple index out of range", "yield self.x == self.rows[2][0]"],
+    ),
+    "reinit of what is no state": (
+        """
+        class M(Component):
+            x: Variable = Variable(start=1.0, fixed=True)
+            y: Variable = Variable()
+
+            def equations(self):
+                yield der(self.x) == -self.x
+                yield self.y == 2 * self.x
+                yield when(self.x < 0.5, reinit(self.y, 3.0))  # HERE
+
+        ac.compile(M())
+        """,
+        ["reinit of `y`, which is no state", "states are `x`"],
+    ),
+    "reinit of what is zero": (
+        """
+        class M(Component):
+            x: Variable = Variable(start=1.0, fixed=True)
+            y: Variable = Variable()
+
+            def equations(self):
+                yield der(self.x) == -self.x
+                yield self.y == 0
+                yield when(self.x < 0.5, reinit(self.y, 3.0))  # HERE
+
+        ac.compile(M())
+        """,
+        ["reinit of `y`, which is no state", "make it zero"],
+    ),
     "a list instead of a number": (
         """
         class M(Component):
@@ -503,6 +584,62 @@ CONNECT = {
         ac.compile(M())
         """,
         ["connector `Flange` (phi, tau) and connector `Flange` (s, f) are unlike"],
+    ),
+    "a vector of outputs and one input": (
+        """
+        from acausal.components import blocks
+
+        class M(Component):
+            table: blocks.CombiTimeTable = blocks.CombiTimeTable(table=[[0, 1, 2], [1, 2, 3]])
+            gain: blocks.Gain = blocks.Gain(k=2.0)
+
+            def equations(self):
+                yield connect(self.table.y, self.gain.u)  # HERE
+
+        ac.compile(M())
+        """,
+        ["outputs are joined", "table.y[1]", "table.y[2]", "connect(table.y[0], gain.u)"],
+    ),
+    "two outputs for one input": (
+        """
+        from acausal.components import blocks
+
+        class Filter(Component):
+            u: Input = Input()
+            lag: blocks.FirstOrder = blocks.FirstOrder(T=1.0)
+
+            def equations(self):
+                yield connect(self.u, self.lag.u)
+
+        class M(Component):
+            one: blocks.Constant = blocks.Constant(k=1.0)
+            two: blocks.Constant = blocks.Constant(k=2.0)
+            filters: Array[Filter] = Array(Filter(), 2)
+
+            def equations(self):
+                yield connect(self.one.y, self.filters[:].u)  # HERE
+                yield connect(self.filters[0].u, self.two.y)  # HERE
+
+        ac.compile(M())
+        """,
+        ["outputs are joined", "one.y", "two.y", "Try:"],
+    ),
+    "an output for the model's own input": (
+        """
+        from acausal.components import blocks
+
+        class M(Component):
+            u: Input = Input()
+            one: blocks.Constant = blocks.Constant(k=1.0)
+            gain: blocks.Gain = blocks.Gain(k=2.0)
+
+            def equations(self):
+                yield connect(self.u, self.gain.u)  # HERE
+                yield connect(self.one.y, self.gain.u)  # HERE
+
+        ac.compile(M())
+        """,
+        ["outputs are joined", "    u  ", "one.y"],
     ),
     "slices of different length": (
         """

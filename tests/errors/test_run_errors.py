@@ -241,6 +241,38 @@ def test_inconsistent_initial_conditions(name: str, tmp_path: Path) -> None:
     error_of(tmp_path, dedent(text) + check, ac.InitializationError, words)
 
 
+class Doubled(ac.Component):
+    """Two names that follow from x, one of them an alias."""
+
+    x: ac.Variable = ac.Variable(start=1.0)
+    y: ac.Variable = ac.Variable()
+    minus: ac.Variable = ac.Variable()
+
+    def equations(self) -> ac.Equations:
+        yield ac.der(self.x) == -self.x
+        yield self.y == 2 * self.x + 1
+        yield self.minus == -self.x
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize(("initial", "words"), [
+    ({"x": 1.0, "y": 5.0}, ["`y` has the value 5 from simulate(initial={...}), but the other conditions give 3",
+                            "Held exactly (fixed start values): x = 1", "or names in `initial=`"]),
+    ({"x": 1.0, "minus": 2.0}, ["`x` and `minus` values that are not opposite, as they are in this model"]),
+])  # fmt: skip
+def test_start_values_that_contradict_each_other(engine: Any, initial: Any, words: list[str]) -> None:
+    with pytest.raises(ac.InitializationError) as caught:
+        ac.compile(Doubled()).simulate(1.0, initial=initial, engine=engine)
+    assert all(word in str(caught.value) for word in words), str(caught.value)
+
+
+def test_start_values_that_agree() -> None:
+    agreed = ac.compile(Doubled()).simulate(1.0, initial={"x": 1.0, "minus": -1.0}, saveat=2)
+    assert agreed["x"][0] == 1.0
+    other = ac.compile(Doubled()).simulate(1.0, initial={"y": 5.0}, saveat=2)
+    assert abs(other["x"][0] - 2.0) < 1e-9
+
+
 BAD_RUN = """\
 class M(Component):
     x: Variable = Variable(start=1.0, fixed=True)

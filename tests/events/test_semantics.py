@@ -292,6 +292,24 @@ def test_the_end(engine: Any) -> None:
     assert_allclose(whole["last"][-1], 1.0, rtol=1e-9)
 
 
+class Over(Clock):
+    """Ends before it has begun."""
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield when(ac.initial(), terminate("nothing to do"))
+
+
+def test_an_end_at_the_start_is_an_event(engine: Any) -> None:
+    solution = run(Over(), 1.0, engine)
+    assert "nothing to do" in str(solution.result)
+    assert solution.t.tolist() == [0.0]
+    [event] = solution.events
+    assert event.t == 0.0
+    assert "`initial()`" in event.causes[0]
+    assert "test_semantics.py" in event.causes[0]
+
+
 class Asserted(Clock):
     limit: Parameter = Parameter(0.5)
 

@@ -60,7 +60,7 @@ def test_tables_are_sequences_of_numbers() -> None:
     assert Heater(rows=np.eye(2)).rows == ((1.0, 0.0), (0.0, 1.0))  # type: ignore[arg-type]
     solution = ac.compile(Heater(rows=[[0, 1], [1, 2]])).simulate(t1=1.0)
     np.testing.assert_allclose(solution["loss"], 15.0)
-    with pytest.raises(ac.DeclarationError, match="takes a sequence of numbers"):
+    with pytest.raises(ac.DeclarationError, match="`rows` takes rows of numbers only"):
         Heater(rows=[["a"]])  # type: ignore[list-item]
 
 

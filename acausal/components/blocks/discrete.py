@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import acausal as ac
-from acausal import Component, DeclarationError, Discrete, Equations, Expr, Input, Output, Parameter, Vector, pre, when
+from acausal import Component, Discrete, Equations, Expr, Input, Output, Parameter, Vector, pre, when
 
 from .multi import total
-from .state_space import check_shapes
+from .state_space import check_coefficients, check_shapes
 
 
 class PartialSampled(Component, partial=True):
@@ -132,14 +132,13 @@ class TransferFunction(PartialSampled):
     @property
     def nx(self) -> int:
         """Number of states."""
+        check_coefficients(self.b, self.a)
         return len(self.a) - 1
 
     x: Vector = Vector(Discrete(doc="state"), size="nx")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        if len(self.b) > len(self.a) or self.a[0] == 0:
-            raise DeclarationError(f"b={self.b}, a={self.a}: a[0] must not be 0 and b not longer than a")
         before = [pre(x) for x in self.x]
         newest = (self.u - total(self.a[1:], before)) / self.a[0]
         weights = (*(0.0,) * (len(self.a) - len(self.b)), *self.b)

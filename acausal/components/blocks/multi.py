@@ -152,6 +152,4 @@ class MatrixGain(Component):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        if any(len(row) != self.nin for row in self.K):
-            raise DeclarationError(f"MatrixGain: the rows of K={self.K} have different lengths")
         yield self.y == [total(row, self.u) for row in self.K]

@@ -15,6 +15,28 @@ from .multi import total
 EPS = 2.220446049250313e-16
 """Rounding of a number near 1."""
 
+Rows = Sequence[Sequence[float]]
+
+
+def check_coefficients(b: Sequence[float], a: Sequence[float]) -> None:
+    """Raise DeclarationError if b and a are no coefficients of a proper transfer function."""
+    if not b or not a or len(b) > len(a) or a[0] == 0:
+        raise DeclarationError(
+            f"TransferFunction: b={b}, a={a}: both have coefficients, a[0] is not 0 and b is not longer than a"
+        )
+
+
+def check_shapes(A: Rows, B: Rows, C: Rows, D: Rows) -> None:
+    """Raise DeclarationError if the matrices of a state space do not fit together."""
+    states, inputs, outputs = len(A), len(B[0]) if B else 0, len(C)
+    shapes = {"A": (A, states, states), "B": (B, states, inputs), "C": (C, outputs, states), "D": (D, outputs, inputs)}
+    for name, (matrix, rows, columns) in shapes.items():
+        if len(matrix) != rows or any(len(row) != columns for row in matrix):
+            raise DeclarationError(
+                f"StateSpace: {name}={matrix} should have {rows} rows of {columns} numbers: A is of {states} states, B "
+                f"of {inputs} inputs and C of {outputs} outputs"
+            )
+
 
 class TransferFunction(SISO):
     """Transfer function ``(b[0] s^m + ... + b[m]) / (a[0] s^n + ... + a[n])``, in controller canonical form.
@@ -41,6 +63,7 @@ class TransferFunction(SISO):
     @property
     def nx(self) -> int:
         """Number of states."""
+        check_coefficients(self.b, self.a)
         return len(self.a) - 1
 
     @property
@@ -56,8 +79,6 @@ class TransferFunction(SISO):
     def equations(self) -> Equations:
         yield from super().equations()
         n, lead, x = self.nx, self.a[0], self.x_scaled
-        if len(self.b) > n + 1 or lead == 0:
-            raise DeclarationError(f"b={self.b}, a={self.a}: a[0] must not be 0 and b not longer than a")
         numerator = (0.0,) * (n + 1 - len(self.b)) + tuple(self.b)
         through = numerator[0] / lead
         output = through * self.u
@@ -75,17 +96,6 @@ class TransferFunction(SISO):
         yield from super().initial_equations()
         x = list(zip(self.x_scaled, [start * self.scale for start in self.x_start], strict=True))
         yield from initialized(self.initType, x[::-1], (self.y, self.y_start) if x else None)
-
-
-Rows = Sequence[Sequence[float]]
-
-
-def check_shapes(A: Rows, B: Rows, C: Rows, D: Rows) -> None:
-    """Raise DeclarationError if the matrices of a state space do not fit together."""
-    states, inputs, outputs = len(A), len(B[0]) if B else 0, len(C)
-    for matrix, rows, columns in (A, states, states), (B, states, inputs), (C, outputs, states), (D, outputs, inputs):
-        if len(matrix) != rows or any(len(row) != columns for row in matrix):
-            raise DeclarationError(f"StateSpace: {matrix} should have {rows} rows of {columns} numbers")
 
 
 class StateSpace(Component):

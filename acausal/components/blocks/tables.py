@@ -28,6 +28,8 @@ class PartialTableData(Component, partial=True):
     def rows(self) -> list[list[float]]:
         """The rows of the table."""
         if not self.tableOnFile:
+            if not self.table:
+                raise DeclarationError(f"{type(self).__name__}: the table has no rows")
             return [list(row) for row in self.table]
         try:
             found = np.loadtxt(self.fileName, delimiter=self.delimiter, skiprows=self.nHeaderLines, ndmin=2)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import acausal as ac
-from acausal import Equations, Output, Parameter, Vector, where
+from acausal import DeclarationError, Equations, Output, Parameter, Vector, where
 
 from .interfaces import BEGINNING, SignalSource
 from .piecewise import interpolate
@@ -31,6 +31,8 @@ class TimeTable(SignalSource):
 
     def equations(self) -> Equations:
         yield from super().equations()
+        if any(len(row) != 2 for row in self.table):
+            raise DeclarationError(f"TimeTable: the table has rows of a time and a value, not {self.table[0]}")
         times, values = [row[0] for row in self.table], [row[1] for row in self.table]
         scaled = (ac.time - self.shiftTime) / self.timeScale
         value = interpolate(scaled, times, values)
