@@ -30,9 +30,8 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
 }  # fmt: skip
 
 
-NATIVE = {"SignalGenerator", "CauerLowPassSC"}
-"""The one switches by positive feedback without dynamics, which diffrax does not follow (docs/known_gaps.md); the other
-has 1 200 events, which take it minutes."""
+NATIVE = {"CauerLowPassSC"}
+"""It has 1 200 events, which take diffrax minutes."""
 
 
 @pytest.mark.parametrize("name", MODELS)
