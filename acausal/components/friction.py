@@ -10,7 +10,12 @@ FREE, FORWARD, STUCK, BACKWARD, UNKNOWN = 2.0, 1.0, 0.0, -1.0, 3.0
 GIVE = 1e-11
 """Relative acceleration, over its unit, of an element that is stuck and holds as much as it can.
 
-Rounding leaves 1e-16 over this of the shares undetermined; and a stuck element that begins to slide has crept by this.
+A stuck element that begins to slide has crept by this. Where one of those that hold a shaft begins to slide, the others
+still hold it, and it accelerates by no more: that is 1e-11 of `sa`, too little to be seen in ``sa = tau0_max + a``. So
+what is solved for is `along`, counted from the corner of the characteristic that the element was at before: the torque
+while stuck, the acceleration itself while sliding. How elements on rigid gears share a load is then known to rounding
+(linear systems are solved with a step of refinement); where it follows from the difference of two accelerations, as of
+clutches side by side, rounding leaves 1e-16 over GIVE undetermined.
 """
 LEAST = 1e-12
 """Keeps the share of what an element can hold finite where it can hold nothing."""

@@ -18,6 +18,7 @@ from ..passes.first_integrals import FirstIntegrals, first_integrals
 from ..passes.schedule import Group, Kernel, Schedule, needs
 from ..symbolic.expr import Expr, par, var
 from ..symbolic.traverse import evaluate, substitute
+from .balanced import solve_balanced
 from .environment import Environment
 from .newton import newton_root
 from .repetition import Repetition, emit, plan
@@ -281,7 +282,7 @@ class _Emitter:
             lines = [evaluate(line, self._leaf, jnp, self.memo) for line in (*matrix, rhs)]
             *rows, b = [jnp.stack([self._scalar(v) for v in line]) for line in lines]
             a = jnp.stack(rows)
-            solution = jnp.linalg.solve(a, b)
+            solution = solve_balanced(a, b, jnp)
             for i, index in enumerate(tears):
                 self.env.put_scalar(index, solution[i])
         for index, expression in steps:
@@ -349,7 +350,7 @@ class _Emitter:
             entries = [[self._column(v, n) for v in evaluate(line, leaf, jnp, memo)] for line in kernel.matrix]
             a = jnp.stack([jnp.stack(line, 1) for line in entries], 1)
             b = jnp.stack([self._column(v, n) for v in evaluate(kernel.rhs, leaf, jnp, memo)], 1)
-            solution = jnp.linalg.solve(a, b[..., None])[..., 0]
+            solution = solve_balanced(a, b, jnp)
             for i, u in enumerate(kernel.tears):
                 found[u] = values[u] = solution[:, i]
         for u, expression in kernel.steps:

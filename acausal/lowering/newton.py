@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from .balanced import solve_balanced
+
 MAX_ITERATIONS = 60
 
 
@@ -89,4 +91,4 @@ def _solve(matrix: Any, rhs: Any) -> Any:
 
     if rhs.shape[1] == 1:
         return rhs / matrix[:, :, 0]
-    return jnp.linalg.solve(matrix, rhs[..., None])[..., 0]
+    return solve_balanced(matrix, rhs, jnp)

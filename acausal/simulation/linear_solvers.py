@@ -67,8 +67,8 @@ SMALL_STEP = 1e30
 class DenseLU(AbstractLinearSolver):
     """Dense Jacobian by forward mode; LU with partial pivoting (LAPACK on a CPU). For up to a few hundred states.
 
-    Rows are scaled to a largest entry of 1 first. Models mix magnitudes (a bulk modulus beside a position), and
-    without it the rounding errors of the solves drown the error estimate of a step below rtol 1e-8 or so.
+    Rows are scaled to a sum of 1 first, so that pivots stand out in their rows. Models mix magnitudes (a bulk modulus
+    beside a position), and without it rounding errors drown the error estimate of a step below rtol 1e-8 or so.
     """
 
     def jacobian(self, field: Field, t: Array, y: Array) -> tuple[Array, Array, Array]:
@@ -83,8 +83,8 @@ class DenseLU(AbstractLinearSolver):
 
     def factor(self, diagonal: Array, jacobian: Array, kept: Any = None) -> tuple[tuple[Array, Array, Array], Any]:
         matrix = jnp.diag(diagonal) - jacobian
-        largest = jax.lax.stop_gradient(jnp.max(jnp.abs(matrix), axis=1, initial=0.0))
-        scale = 1 / jnp.where(largest == 0, 1, largest)
+        size = jax.lax.stop_gradient(jnp.sum(jnp.abs(matrix), axis=1))
+        scale = 1 / jnp.where(size == 0, 1, size)
         lu, _, permutation = jax.lax.linalg.lu(matrix * scale[:, None])
         return (lu, permutation, scale), kept
 

@@ -32,6 +32,8 @@ class PartialFriction(Component, partial=True):
     tau0_max: Variable = Variable(unit="N*m", doc="largest friction torque for w = 0 and locked")
     free: Discrete = Discrete(doc="whether the frictional element is not active")
     sa: Variable = Variable(doc="curve parameter of the friction characteristic")
+    along: Variable = Variable(doc="sa from its corner: what holds while stuck, what accelerates while sliding")
+    holds: Variable = Variable(unit="N*m", doc="friction torque while stuck")
     startForward: Discrete = Discrete(doc="whether w_rel = 0 and forward sliding starts")
     startBackward: Discrete = Discrete(doc="whether w_rel = 0 and backward sliding starts")
     locked: Discrete = Discrete(doc="whether w_rel = 0 and not sliding")
@@ -39,22 +41,28 @@ class PartialFriction(Component, partial=True):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        w, sa = self.w_relfric, self.sa
+        w, along = self.w_relfric, self.along
         peak = self.tau0_max / self.unitTorque
         was = pre(self.mode)
         was_free, forward, stuck, backward = was == FREE, was == FORWARD, was == STUCK, was == BACKWARD
         held = pre(self.locked) > 0.5  # what comes to rest is held first: sliding on would agree with the laws, too
         begins, returns = ac.initial() & (w > 0), ac.initial() & (w < 0)
-        starts = stuck & ((held | (pre(self.startForward) > 0.5)) & (sa > peak))
-        reverses = stuck & ((held | (pre(self.startBackward) > 0.5)) & (sa < -peak))
+        went, came = pre(self.startForward) > 0.5, pre(self.startBackward) > 0.5
+        ahead, back = forward | went, backward | came
+        sa = along + where(ahead, peak, where(back, -peak, 0.0))
+        yield self.sa == sa
+        upper = where(ahead, 0.0, where(back, 2 * peak, peak))  # other corners, from there
+        lower = where(ahead, -2 * peak, where(back, 0.0, -peak))
+        starts = stuck & ((held | went) & (along > upper))
+        reverses = stuck & ((held | came) & (along < lower))
         yield self.startForward == where(starts | (backward & (w > self.w_small)) | begins, 1.0, 0.0)
         yield self.startBackward == where(reverses | (forward & (w < -self.w_small)) | returns, 1.0, 0.0)
         going, coming, free = self.startForward > 0.5, self.startBackward > 0.5, self.free > 0.5
         yield self.locked == where(free | forward | going | backward | coming, 0.0, 1.0)
-        sliding = where(going | forward, sa - peak, sa + peak)
-        moving = where(going, sa - peak, where(coming, sa + peak, sliding))
-        along = where(self.locked > 0.5, yielding(sa, peak), where(free, sa, moving))
-        yield self.a_relfric == self.unitAngularAcceleration * along
+        moving = along - where(going | (forward & ~coming), upper, lower)
+        rate = where(self.locked > 0.5, yielding(sa, peak), where(free, sa, moving))
+        yield self.a_relfric == self.unitAngularAcceleration * rate
+        yield self.holds == where(self.locked > 0.5, sa * self.unitTorque, 0.0)
         slides = (forward | was_free | going) & (w > 0)
         slips = (backward | was_free | coming) & (w < 0)
         yield self.mode == where(free, FREE, where(slides, FORWARD, where(slips, BACKWARD, STUCK)))
@@ -66,7 +74,7 @@ class PartialFriction(Component, partial=True):
 
     def friction(self, sliding: Expr) -> Expr:
         """Friction torque: what holds while locked, nothing while free, else `sliding`."""
-        return where(self.locked > 0.5, self.sa * self.unitTorque, where(self.free > 0.5, 0.0 * sliding, sliding))
+        return where(self.locked > 0.5, self.holds, where(self.free > 0.5, 0.0 * sliding, sliding))
 
 
 class BearingFriction(thermal.PartialConditionalHeatPort, PartialFriction, PartialTwoFlangesAndSupport):
@@ -224,6 +232,7 @@ class OneWayClutch(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
     tau0: Variable = Variable(unit="N*m", doc="friction torque for w = 0 and sliding")
     tau0_max: Variable = Variable(unit="N*m", doc="largest friction torque for w = 0 and locked")
     sa: Variable = Variable(doc="curve parameter of the friction characteristic")
+    along: Variable = Variable(doc="sa from its corner: what holds while stuck, what accelerates while sliding")
     startForward: Discrete = Discrete(doc="whether w_rel = 0 and forward sliding starts")
     locked: Discrete = Discrete(doc="whether w_rel = 0 and not sliding")
     stuck: Discrete = Discrete(doc="locked, or about to slide")
@@ -232,7 +241,7 @@ class OneWayClutch(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
         yield from super().equations()
         speeds, coefficients = [row[0] for row in self.mu_pos], [row[1] for row in self.mu_pos]
         rest = blocks.interpolate(0.0 * self.speed, speeds, coefficients) * self.cgeo
-        free, sa = self.f_normalized <= 0, self.sa
+        free, along = self.f_normalized <= 0, self.along
         low, high = self.tau0 / self.unitTorque, self.tau0_max / self.unitTorque
         yield self.a_rel == der(self.w_rel)
         yield self.speed == self.w_rel / self.unitAngularAcceleration
@@ -240,7 +249,11 @@ class OneWayClutch(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
         yield self.tau0 == rest * self.fn
         yield self.tau0_max == where(free, self.eps0 * rest * self.fn_max, ac.max(self.peak, 1 + self.eps0) * self.tau0)
         held = pre(self.stuck) > 0.5
-        lets_go = (sa > high) | ((pre(self.startForward) > 0.5) & (sa > low)) | (self.w_rel > self.w_small)
+        was_locked = pre(self.locked) > 0.5
+        sa = along + where(was_locked, 0.0, high)
+        yield self.sa == sa
+        goes_on = (pre(self.startForward) > 0.5) & (along > where(was_locked, low, low - high))
+        lets_go = (along > where(was_locked, high, 0.0)) | goes_on | (self.w_rel > self.w_small)
         yield self.startForward == where((held & lets_go) | (ac.initial() & (self.w_rel > 0)), 1.0, 0.0)
         yield self.locked == where(held & ~(self.startForward > 0.5), 1.0, 0.0)
         locked = self.locked > 0.5
@@ -248,7 +261,8 @@ class OneWayClutch(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
         most = high + rest * self.fn_max / self.unitTorque
         # Sliding, sa is shifted by what was held, not by tau0 as in the standard library: so a clutch that lets go
         # stays free, whatever inertia it moves. Shifted by less, sa may fall below tau0_max at once.
-        yield self.a_rel == self.unitAngularAcceleration * where(locked, yielding(sa, most), sa - high)
+        moving = along + where(was_locked, -high, 0.0)
+        yield self.a_rel == self.unitAngularAcceleration * where(locked, yielding(sa, most), moving)
         yield self.tau == where(locked, sa * self.unitTorque, where(free, 0.0, self.mu * self.cgeo * self.fn))
         yield self.stuck == where(locked | (self.w_rel <= 0), 1.0, 0.0)
         yield self.lossPower == where(self.stuck > 0.5, 0.0, self.tau * self.w_rel)

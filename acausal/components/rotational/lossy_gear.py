@@ -44,6 +44,7 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
     tauLoss: Variable = Variable(unit="N*m", doc="torque lost, in terms of flange a")
     speed: Variable = Variable(doc="speed of flange a")
     sa: Variable = Variable(doc="curve parameter: loss while stuck, shifted acceleration while moving")
+    along: Variable = Variable(doc="sa from its corner: what holds while stuck, what accelerates while sliding")
     startForward: Discrete = Discrete(doc="whether forward rolling starts")
     startBackward: Discrete = Discrete(doc="whether backward rolling starts")
     locked: Discrete = Discrete(doc="whether the gear is stuck")
@@ -83,27 +84,33 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
     def _free(self) -> Equations:
         """Nothing is lost, and nothing holds the gear."""
         yield self.tauLoss == 0.0 * self.tau_a
-        yield self.a_a == self.unitAngularAcceleration * self.sa
+        yield self.a_a == self.unitAngularAcceleration * self.along
+        yield self.sa == self.along
         for flag in (self.startForward, self.startBackward, self.locked):
             yield flag == 0.0
         yield self.mode == FREE
 
     def _rolling(self) -> Equations:
         """State machine: rolling forward, rolling backward, or stuck."""
-        sa, was = self.sa, pre(self.mode)
+        along, was = self.along, pre(self.mode)
         forward_most, backward_most = self.losses(self.speed)
         highest, lowest = (loss / self.unitTorque for loss in self.losses(0.0 * self.speed))
         forward, stuck, backward, held = was == FORWARD, was == STUCK, was == BACKWARD, pre(self.locked) > 0.5
         begins, returns = ac.initial() & (self.w_a > 0), ac.initial() & (self.w_a < 0)
         goes_on, comes_on = pre(self.startForward) > 0.5, pre(self.startBackward) > 0.5
-        yield self.startForward == where((stuck & (held | goes_on) & (sa > highest)) | begins, 1.0, 0.0)
-        yield self.startBackward == where((stuck & (held | comes_on) & (sa < lowest)) | returns, 1.0, 0.0)
+        ahead, back = forward | goes_on, backward | comes_on
+        sa = along + where(ahead, highest, where(back, lowest, 0.0))
+        yield self.sa == sa
+        upper = where(ahead, 0.0, where(back, highest - lowest, highest))  # other corners, from there
+        lower = where(ahead, lowest - highest, where(back, 0.0, lowest))
+        yield self.startForward == where((stuck & (held | goes_on) & (along > upper)) | begins, 1.0, 0.0)
+        yield self.startBackward == where((stuck & (held | comes_on) & (along < lower)) | returns, 1.0, 0.0)
         going, coming = self.startForward > 0.5, self.startBackward > 0.5
         yield self.locked == where(forward | going | backward | coming, 0.0, 1.0)
-        locked, ahead = self.locked > 0.5, going | (forward & ~coming)
-        rolling = where(ahead, forward_most, backward_most)
+        locked, onward = self.locked > 0.5, going | (forward & ~coming)
+        rolling = where(onward, forward_most, backward_most)
         yield self.tauLoss == where(locked, sa * self.unitTorque, rolling)
-        along = sa - where(ahead, highest, lowest)
-        yield self.a_a == self.unitAngularAcceleration * where(locked, yielding(sa, 1.0), along)
+        rolls = along - where(onward, upper, lower)
+        yield self.a_a == self.unitAngularAcceleration * where(locked, yielding(sa, 1.0), rolls)
         slides, slips = (forward | going) & (self.w_a > 0), (backward | coming) & (self.w_a < 0)
         yield self.mode == where(slides, FORWARD, where(slips, BACKWARD, STUCK))

@@ -32,6 +32,8 @@ class PartialFriction(Component, partial=True):
     f0_max: Variable = Variable(unit="N", doc="largest friction force for v = 0 and locked")
     free: Discrete = Discrete(doc="whether the frictional element is not active")
     sa: Variable = Variable(doc="curve parameter of the friction characteristic")
+    along: Variable = Variable(doc="sa from its corner: what holds while stuck, what accelerates while sliding")
+    holds: Variable = Variable(unit="N", doc="friction force while stuck")
     startForward: Discrete = Discrete(doc="whether v_rel = 0 and forward sliding starts")
     startBackward: Discrete = Discrete(doc="whether v_rel = 0 and backward sliding starts")
     locked: Discrete = Discrete(doc="whether v_rel = 0 and not sliding")
@@ -39,22 +41,28 @@ class PartialFriction(Component, partial=True):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        v, sa = self.v_relfric, self.sa
+        v, along = self.v_relfric, self.along
         peak = self.f0_max / self.unitForce
         was = pre(self.mode)
         was_free, forward, stuck, backward = was == FREE, was == FORWARD, was == STUCK, was == BACKWARD
         held = pre(self.locked) > 0.5  # what comes to rest is held first: sliding on would agree with the laws, too
         begins, returns = ac.initial() & (v > 0), ac.initial() & (v < 0)
-        starts = stuck & self.ahead((held | (pre(self.startForward) > 0.5)) & (sa > peak))
-        reverses = stuck & self.behind((held | (pre(self.startBackward) > 0.5)) & (sa < -peak))
+        went, came = pre(self.startForward) > 0.5, pre(self.startBackward) > 0.5
+        ahead, back = forward | went, backward | came
+        sa = along + where(ahead, peak, where(back, -peak, 0.0))
+        yield self.sa == sa
+        upper = where(ahead, 0.0, where(back, 2 * peak, peak))  # other corners, from there
+        lower = where(ahead, -2 * peak, where(back, 0.0, -peak))
+        starts = stuck & self.ahead((held | went) & (along > upper))
+        reverses = stuck & self.behind((held | came) & (along < lower))
         yield self.startForward == where(starts | (backward & (v > self.v_small)) | begins, 1.0, 0.0)
         yield self.startBackward == where(reverses | (forward & (v < -self.v_small)) | returns, 1.0, 0.0)
         going, coming, free = self.startForward > 0.5, self.startBackward > 0.5, self.free > 0.5
         yield self.locked == where(free | forward | going | backward | coming, 0.0, 1.0)
-        sliding = where(going | forward, sa - peak, sa + peak)
-        moving = where(going, sa - peak, where(coming, sa + peak, sliding))
-        along = where(self.locked > 0.5, yielding(sa, peak), where(free, sa, moving))
-        yield self.a_relfric == self.unitAcceleration * along
+        moving = along - where(going | (forward & ~coming), upper, lower)
+        rate = where(self.locked > 0.5, yielding(sa, peak), where(free, sa, moving))
+        yield self.a_relfric == self.unitAcceleration * rate
+        yield self.holds == where(self.locked > 0.5, sa * self.unitForce, 0.0)
         slides = self.ahead((forward | was_free | going) & (v > 0))
         slips = self.behind((backward | was_free | coming) & (v < 0))
         yield self.mode == where(free, FREE, where(slides, FORWARD, where(slips, BACKWARD, STUCK)))
@@ -74,7 +82,7 @@ class PartialFriction(Component, partial=True):
 
     def friction(self, sliding: Expr) -> Expr:
         """Friction force: what holds while locked, nothing while free, else `sliding`."""
-        return where(self.locked > 0.5, self.sa * self.unitForce, where(self.free > 0.5, 0.0 * sliding, sliding))
+        return where(self.locked > 0.5, self.holds, where(self.free > 0.5, 0.0 * sliding, sliding))
 
 
 class SupportFriction(thermal.PartialConditionalHeatPort, PartialFriction, PartialTwoFlangesAndSupport):

@@ -406,12 +406,16 @@ class Writer:
             if solve.matrix:
                 flat = ", ".join(text(e) for line in solve.matrix for e in line)
                 lines += [
-                    f"double a{k}[{m * m}] = {{{flat}}};",
+                    f"double a{k}[{m * m}] = {{{flat}}}, f{k}[{m * m}];",
                     f"int q{k}[{m}];",
-                    f"ac_dense_factor({m}, a{k}, q{k});",
+                    f"memcpy(f{k}, a{k}, sizeof f{k});",
+                    f"ac_dense_factor({m}, f{k}, q{k});",
                 ]
             lines.append(f"double x{k}[{m}] = {{{', '.join(text(e) for e in solve.rhs)}}};")
-            lines.append(f"ac_dense_solve({m}, a{factor}, q{factor}, x{k});")
+            if solve.matrix:
+                lines.append(f"ac_dense_solve_refined({m}, a{k}, f{k}, q{k}, x{k});")
+            else:
+                lines.append(f"ac_dense_solve({m}, f{factor}, q{factor}, x{k});")
             return lines
         matrix = self.straight.solves[factor].matrix
         entries: list[str] = []
@@ -422,7 +426,7 @@ class Writer:
                     terms.append(f"x{k}[{j}] * {self._tangent_name(entry)}")
             entries.append(" - ".join(terms))
         lines.append(f"ac_vector xd{k}[{m}] = {{{', '.join(entries)}}};")
-        lines.append(f"ac_dense_solve_vector({m}, a{factor}, q{factor}, xd{k});")
+        lines.append(f"ac_dense_solve_vector({m}, f{factor}, q{factor}, xd{k});")
         return lines
 
 
