@@ -265,3 +265,15 @@ class Breaks(Component):
     def equations(self) -> Equations:
         yield der(self.x) == 1.0
         yield assert_(self.x < 0.5, "100 % is too much")
+
+
+class Latch(Component):
+    """Positive feedback: either output agrees with the equations for a while, the start value says which is there."""
+
+    y0: Parameter = Parameter(1.0)
+    y: Variable = Variable(start=y0)
+    x: Variable = Variable(start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield self.y == ac.where(ac.sin(2 * ac.time) + 0.5 * self.y > 0, 1.0, -1.0)
+        yield der(self.x) == self.y - self.x

@@ -12,12 +12,12 @@ import pytest
 
 import acausal as ac
 
-from .export_models import Ball, Breaks, Dosed, Ends, Rectifier, Rounded, Sampled, Thermostat, Ticking, Wall
+from .export_models import Ball, Breaks, Dosed, Ends, Latch, Rectifier, Rounded, Sampled, Thermostat, Ticking, Wall
 from .export_unit import DISCARD, ERROR, OK, WARNING, Instance, Unit, exported
 
 BOTH = pytest.mark.parametrize("version", ("2.0", "3.0"))
 RUNS = {Ball: 1.5, Thermostat: 15.0, Sampled: 2.0, Ticking: 2.0, Rectifier: 3.0, Wall: 2.0, Rounded: 3.0,
-        Dosed: 2.0}  # fmt: skip
+        Dosed: 2.0, Latch: 4.0}  # fmt: skip
 
 
 def _cases() -> Iterator[Any]:
@@ -79,6 +79,16 @@ def test_fmpy_agrees_with_simulate(model, kind, version):
         near = np.abs(times[:, None] - [e.t for e in solution.events]).min(axis=1, initial=1.0) < 1e-6
         wrong = np.abs(rows[n] - solution[n])[~near].max() / (np.ptp(solution[n]) or 1.0)
         assert wrong <= 1e-6, n
+
+
+@BOTH
+@pytest.mark.parametrize("y", [-1.0, 1.0])
+def test_start_values_choose_between_modes(version, y):
+    one = exported(Latch, version).instance("me")
+    assert one.set(y0=y) == OK
+    one.initialize()
+    assert one.get("y")[0] == y == system(Latch).simulate(0.1, parameters={"y0": y})["y"][0]
+    one.free()
 
 
 @BOTH

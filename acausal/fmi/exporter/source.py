@@ -12,6 +12,7 @@ from ...lowering.c.generate import runtime_files, to_c
 from ...lowering.c.text import array
 from ...lowering.initial import EASE_ALGEBRAIC
 from .events import event_families, event_tables
+from .guesses import guess_function
 from .variables import ExportError, FmuVariable, Place, Starts
 
 if TYPE_CHECKING:
@@ -84,7 +85,7 @@ def tables(
         array("signed char", "fmu_start_sign", starts.sign.tolist()),
         array("unsigned char", "fmu_fixed", starts.fixed.astype(int).tolist()),
         array("double", "fmu_ease", ease.tolist()),
-        *event_tables(system),
+        *event_tables(system), guess_function(system),
     ]  # fmt: skip
     return "\n".join(lines) + "\n"
 

@@ -403,6 +403,7 @@ static void fmu_first_slots(fmu_instance *f) {
             const double value = fmu_pre_sign[k] * f->starts[fmu_pre_source[k]];
             f->s.p[fmu_pre_slot[k]] = value == value ? value : 0.0;
         }
+    fmu_guess(f->s.t, f->starts, f->s.p);
     f->constants_known = 0;
 }
 

@@ -12,6 +12,8 @@ static int fmu_initialize(fmu_instance *f) {
         if (i < AC_N) f->s.z[i] = given == given ? given : 0.0;
         else f->wanted[i - AC_N] = given;
     }
+    for (int i = 0; i < FMU_STARTS; i++)
+        if (f->s.start_set[i]) f->starts[fmu_start_source[i]] = fmu_start_sign[i] * f->s.start[i];
     const ac_given given = {fmu_fixed, fmu_ease, f->wanted, FMU_WANTED};
     f->start_status = fmu_hybrid_start(f, &given);
     f->start_known = 1;
