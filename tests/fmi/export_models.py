@@ -277,3 +277,19 @@ class Latch(Component):
     def equations(self) -> Equations:
         yield self.y == ac.where(ac.sin(2 * ac.time) + 0.5 * self.y > 0, 1.0, -1.0)
         yield der(self.x) == self.y - self.x
+
+
+class Swing(Component):
+    """A Cartesian pendulum without velocities of its own: states that the model does not declare."""
+
+    x: Variable = Variable(start=0.6, fixed=True)
+    y: Variable = Variable(start=-0.8)
+    tension: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield der(der(self.x)) == -self.tension * self.x
+        yield der(der(self.y)) == -self.tension * self.y - 9.81
+        yield self.x**2 + self.y**2 == 1.0
+
+    def initial_equations(self) -> Equations:
+        yield der(self.x) == 0.5

@@ -12,10 +12,10 @@ import pytest
 import acausal as ac
 import acausal.fmi
 
-from .export_models import Balanced, Chain, Implicit, Oscillator, Pendulum
+from .export_models import Balanced, Chain, Implicit, Oscillator, Pendulum, Swing
 from .export_unit import OK, Unit, exported
 
-MODELS = (Oscillator, Implicit, Balanced, Pendulum, Chain)
+MODELS = (Oscillator, Implicit, Balanced, Pendulum, Chain, Swing)
 VERSIONS = ("2.0", "3.0")
 BOTH = pytest.mark.parametrize("version", VERSIONS)
 

@@ -69,6 +69,8 @@ class FmuVariable:
 
 INDICATORS = "_event_indicators"
 """Name of the array of event indicators."""
+STATES = "_states"
+"""Name of the array of states that are no variables of the model."""
 STRUCTURED = re.compile(r"(?:der\()?[A-Za-z_]\w*(?:\[\d+\])?(?:\.[A-Za-z_]\w*(?:\[\d+\])?)*\)?", re.ASCII)
 """Names of the structured naming convention, as far as they occur here."""
 
@@ -120,6 +122,11 @@ def collect(system: System, version: str) -> list[FmuVariable]:
     flat = system.stages.flat
     for i, state in enumerate(starts.ids[: starts.n_x].tolist()):
         of = _state_reference(table, state, flat.name(state))
+        if of is None:  # a derivative that index reduction has made: `der(name)` is the slope of the state `name`
+            of = len(table)
+            entry = FmuVariable(f"{STATES}[{i}]", Place.VARIABLE, state, 1, "local", description=flat.name(state))
+            entry.nominal = float(system.lowered.x_nominal[i])
+            table.append(entry)
         slope = FmuVariable(f"der({table[of].name})", Place.DERIVATIVE, i, 1, "local", derivative_of=of)
         slope.unit, slope.description = _per_second(table[of].unit), f"time derivative of {table[of].name}"
         table.append(slope)
@@ -135,9 +142,10 @@ def _indicators(hybrid: Hybrid) -> Iterator[FmuVariable]:
         yield FmuVariable(f"{INDICATORS}[{k}]", Place.INDICATOR, k, 1, "local", description=f"event: {text}")
 
 
-def _state_reference(table: list[FmuVariable], state: int, name: str) -> int:
-    """Number of the variable that stands for a state."""
-    return next(k for k, v in enumerate(table) if v.place is Place.VARIABLE and v.index == state and v.name == name)
+def _state_reference(table: list[FmuVariable], state: int, name: str) -> int | None:
+    """Number of the variable that stands for a state, None if the model declares none."""
+    own = (k for k, v in enumerate(table) if v.place is Place.VARIABLE and v.index == state and v.name == name)
+    return next(own, None)
 
 
 def _per_second(unit: str | None) -> str | None:
