@@ -97,6 +97,13 @@ def _check_output(saveat: Any, t0: Any, t1: Any) -> None:
         )
 
 
+def within_run(saveat: Any, t0: Any, t1: Any) -> Any:
+    """Output times without what rounding puts beyond the ends of the run: the last of ``np.arange(0.05, 1, 0.1)``."""
+    if saveat is None or is_saveat(saveat) or _is_integer(saveat) or not is_concrete((saveat, t0, t1)):
+        return saveat
+    return np.clip(np.asarray(saveat, float), min(t0, t1), max(t0, t1))
+
+
 def _items(argument: str, given: Any) -> list[tuple[str, Any]]:
     """The names and values of a dict."""
     if given is None:

@@ -14,7 +14,7 @@ from acausal.errors import SimulationError, UnknownNameError, nearest
 from acausal.lowering.c.text import NotInC
 from acausal.lowering.numeric import is_concrete
 
-from .arguments import check_arguments, is_saveat
+from .arguments import check_arguments, is_saveat, within_run
 from .hybrid_run import HybridRun
 from .native import NativeModel, native_model
 from .native_build import NoCompiler, compiler
@@ -45,6 +45,7 @@ def simulate(system: Any, t1: Any, *, engine: str = "auto", **options: Any) -> S
     if engine not in ENGINES:
         raise SimulationError(f"There is no engine {engine!r}; there are {', '.join(map(repr, ENGINES))}.")
     check_arguments(system, t1, options)
+    options["saveat"] = within_run(options.get("saveat"), options.get("t0", 0.0), t1)
     system = system_to_run(system, options, engine)
     if engine != "diffrax":
         reason = why_not_native(system, options)

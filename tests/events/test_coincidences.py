@@ -1,0 +1,150 @@
+"""Events that coincide with each other, with the ends of the run, with output times; conditions that only graze."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal import Component, Discrete, Equations, Parameter, Variable, der, pre, reinit, sample, when, where
+
+ENGINES = pytest.mark.parametrize("engine", ["native", "diffrax"])
+
+
+class Together(Component):
+    """Two conditions on different states that switch at the same time, one that needs both, and one at the end."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    y: Variable = Variable(start=0.0, fixed=True)
+    one: Discrete = Discrete(start=0)
+    other: Discrete = Discrete(start=0)
+    both: Discrete = Discrete(start=0)
+    last: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1.0
+        yield der(self.y) == 3.0
+        yield when(self.x > 0.1, {self.one: pre(self.one) + 1})
+        yield when(self.y > 0.3, {self.other: pre(self.other) + 1})
+        yield when((self.x > 0.1) & (self.y > 0.3), {self.both: pre(self.both) + 1})
+        yield when(ac.time >= 1.0, {self.last: pre(self.last) + 1})
+
+
+@ENGINES
+def test_simultaneous_roots_and_one_at_the_end(engine: Any) -> None:
+    solution = ac.compile(Together()).simulate(1.0, engine=engine, rtol=1e-9, saveat=2)
+    assert [solution[n][-1] for n in ("one", "other", "both", "last")] == [1.0] * 4
+    times = [event.t for event in solution.events]
+    assert times[:-1] == pytest.approx([0.1] * (len(times) - 1), abs=1e-10) and times[-1] == 1.0
+
+
+class Grazing(Component):
+    """A sine that rises above, or stays below, a level close to its peak."""
+
+    below: Parameter = Parameter(1e-4)
+    x: Variable = Variable(start=0.0, fixed=True)
+    v: Variable = Variable(start=1.0, fixed=True)
+    n: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.v
+        yield der(self.v) == -self.x
+        yield when(self.x > 1 - self.below, {self.n: pre(self.n) + 1})
+
+
+@pytest.mark.parametrize(
+    ("engine", "below"),
+    [*(("native", d) for d in (1e-3, 1e-6, 1e-8, -1e-8, -1e-6, -1e-3)), ("diffrax", 1e-6), ("diffrax", -1e-6)],
+)
+def test_a_condition_that_grazes_its_switch(engine: Any, below: float) -> None:
+    solution = ac.compile(Grazing()).simulate(
+        7 * np.pi, parameters={"below": below}, engine=engine, rtol=1e-12, saveat=2
+    )
+    assert solution["n"][-1] == (4.0 if below > 0 else 0.0)
+    found = [event.t for event in solution.events]
+    if below < 0:
+        assert not found
+        return
+    wanted = np.sort([2 * np.pi * k + np.pi / 2 + s * np.arccos(1 - below) for k in range(4) for s in (-1, 1)])
+    np.testing.assert_allclose(found, wanted, atol=1e-9 / np.sqrt(2 * below))  # error of x over its slope there
+
+
+class Sampled(Component):
+    """Periods whose multiples coincide but for rounding: 3 * 0.1 is not 0.3."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    often: Discrete = Discrete(start=0)
+    seldom: Discrete = Discrete(start=0)
+    both: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1.0
+        yield when(sample(0.0, 0.1), {self.often: pre(self.often) + 1})
+        yield when(sample(0.0, 0.3), {self.seldom: pre(self.seldom) + 1})
+        yield when(sample(0.0, 0.1) & sample(0.0, 0.3), {self.both: pre(self.both) + 1})
+
+
+@pytest.mark.parametrize(("engine", "n"), [("native", 100), ("diffrax", 4)])
+def test_samples_of_unlike_periods_coincide(engine: Any, n: int) -> None:
+    solution = ac.compile(Sampled()).simulate(0.3 * n + 0.05, engine=engine, saveat=2)
+    assert [solution[k][-1] for k in ("often", "seldom", "both")] == [3.0 * n + 1, n + 1.0, n + 1.0]
+
+
+class Chained(Component):
+    """A `when` that triggers another, which triggers a third that resets the state: all at one time, in one event."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    first: Discrete = Discrete(start=0)
+    second: Discrete = Discrete(start=0)
+    seen: Discrete = Discrete(start=0)
+    at: Discrete = Discrete(start=-1)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1.0
+        yield when(self.x > 0.3, {self.first: pre(self.first) + 1})
+        yield when(self.first > 0.5, {self.second: pre(self.second) + 1})
+        yield when(
+            self.second > 0.5, {self.seen: 10 * self.second + pre(self.second), self.at: ac.time}, reinit(self.x, -1.0)
+        )
+
+
+@ENGINES
+def test_a_chain_of_triggers(engine: Any) -> None:
+    """What a `when` sees as `pre` is the value before the event, although another has changed it."""
+    solution = ac.compile(Chained()).simulate(2.0, engine=engine, rtol=1e-9, saveat=2)
+    assert [solution[k][-1] for k in ("first", "second", "seen")] == [2.0, 1.0, 10.0]
+    assert [event.t for event in solution.events] == pytest.approx([0.3, 1.6], abs=1e-9)
+    assert solution["at"][-1] == solution.events[0].t
+    assert solution["x"][-1] == pytest.approx(0.7, abs=1e-9)
+
+
+class Remembered(Component):
+    """A boolean and integers that depend on what they were."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    on: Discrete = Discrete(start=0)
+    i: Discrete = Discrete(start=3)
+    old: Discrete = Discrete(start=-1)
+    most: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1.0
+        doubled = where(pre(self.on) > 0.5, pre(self.i) * 2, pre(self.i) - 1)
+        yield when(sample(0.1, 0.1), {self.on: 1 - pre(self.on), self.i: doubled, self.old: pre(self.i)})
+        yield self.most == where(self.i > pre(self.most), self.i, pre(self.most))
+
+
+@ENGINES
+def test_left_limits_of_booleans_and_integers(engine: Any) -> None:
+    """The last output time is beyond the end by rounding, and is shown."""
+    solution = ac.compile(Remembered()).simulate(0.95, engine=engine, saveat=np.arange(0.05, 1.0, 0.1))
+    on, i, old, most = 0, 3, -1, 3
+    wanted = [(on, i, old, most)]
+    for _ in range(9):
+        on, i, old = 1 - on, i * 2 if on else i - 1, i
+        most = i if i > most else most
+        wanted.append((on, i, old, most))
+    found = np.stack([solution[k] for k in ("on", "i", "old", "most")], axis=1)
+    np.testing.assert_array_equal(found, wanted)
