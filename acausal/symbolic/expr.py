@@ -258,15 +258,23 @@ def numeric(node: Expr) -> Expr:
     return make("where", (node, ONE, ZERO)) if node.op in CONDITIONS else node
 
 
+LONGEST = 32
+"""A sum of more terms than this stays one term of another. In a chain each sum is the one before it and one term more:
+written out they would grow with the square of its length."""
 ROUNDING = 4e-16
 """A sum of numbers that is this small beside them is zero: what is left of ``0.1 + 0.2 - 0.3`` is no coefficient."""
 
 
 def add(*terms: Expr) -> Expr:
-    """Sum, flat, with constants folded and ``x - x`` cancelled."""
+    """Sum, with constants folded and ``x - x`` cancelled; flat, but for sums of very many terms, which are shared."""
     flat: list[Expr] = []
+    long = False
     for term in map(numeric, terms):
-        flat.extend(term.args if term.op == "add" else (term,))
+        short = term.op == "add" and len(term.args) <= LONGEST
+        long = long or (term.op == "add" and not short)
+        flat.extend(term.args if short else (term,))
+    if long:
+        flat = _opened(flat)
     constant = size = 0.0
     kept: list[Expr] = []
     for term in flat:
@@ -285,13 +293,27 @@ def add(*terms: Expr) -> Expr:
     return intern_node("add", tuple(kept))
 
 
+def _opened(terms: list[Expr]) -> list[Expr]:
+    """With the long sums among the terms written out that have a term which another one cancels."""
+    single = {_signed(term) for term in terms if term.op != "add"}
+    out: list[Expr] = []
+    for term in terms:
+        cancels = term.op == "add" and any((key, not negative) in single for key, negative in map(_signed, term.args))
+        out.extend(term.args if cancels else (term,))
+    return out
+
+
+def _signed(term: Expr) -> tuple[int, bool]:
+    negative = term.op == "neg"
+    return id(term.args[0] if negative else term), negative
+
+
 def _cancel(terms: list[Expr]) -> list[Expr]:
     """Drop pairs ``x`` and ``-x``."""
     count: dict[int, int] = {}
     paired = False
     for term in terms:
-        negative = term.op == "neg"
-        key = id(term.args[0] if negative else term)
+        key, negative = _signed(term)
         old = count.get(key, 0)
         step = -1 if negative else 1
         paired = paired or old * step < 0
@@ -300,8 +322,7 @@ def _cancel(terms: list[Expr]) -> list[Expr]:
         return terms
     kept: list[Expr] = []
     for term in terms:
-        negative = term.op == "neg"
-        key = id(term.args[0] if negative else term)
+        key, negative = _signed(term)
         left = count[key]
         if (left < 0) if negative else (left > 0):
             kept.append(term)
@@ -316,7 +337,7 @@ def neg(x: Expr) -> Expr:
         return const(-x.value)
     if x.op == "neg":
         return x.args[0]
-    if x.op == "add":
+    if x.op == "add" and len(x.args) <= LONGEST:
         return add(*(neg(a) for a in x.args))
     return intern_node("neg", (x,))
 

@@ -7,6 +7,7 @@ import gc
 import math
 import pickle
 import threading
+from itertools import accumulate
 
 import numpy as np
 import pytest
@@ -184,6 +185,17 @@ def test_wide_sums_stay_linear() -> None:
     total = add(*parts)
     assert len(total.args) == 5000
     assert total - parts[17] is add(*(p for p in parts if p is not parts[17]))
+    assert total - total is ZERO
+
+
+def test_sums_of_a_chain_share_their_terms() -> None:
+    """Each is the one before it and one term more: together they have a bounded number of operands for each."""
+    parts = [symbol(("w", k)) for k in range(2000)]
+    sums = list(accumulate(parts))
+    assert sum(len(s.args) for s in sums) < 40 * len(sums)
+    values = {part: float(k) for k, part in enumerate(parts)}
+    assert evaluate((sums[-1] - sums[-3],), lambda leaf: values[leaf], np)[0] == 1999.0 + 1998.0
+    assert sums[-1] - parts[-1] is sums[-2]
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False))
