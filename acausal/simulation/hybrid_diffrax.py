@@ -214,7 +214,8 @@ class _Stretches:
             n = 0 if end_open else int((remaining <= stop).sum())
             return Stretch(np.tile(z, (n, 1)), 0, n, max(t, stop), z, step, None, {})
         hybrid, equations, n_x = self.iteration.hybrid, self.iteration.equations, self.lowered.n_x
-        slack, shortest = _slack(self.iteration, equations, t, z, p), jnp.asarray(NARROWEST * (stop - t))
+        before = sides(hybrid, equations, t, z, p)
+        slack, shortest = _slack(self.iteration, before), jnp.asarray(NARROWEST * (stop - t))
         together = isinstance(self.model.method, Rodas5P)
         size, noise = jnp.asarray(self.iteration.sizes_of_roots), jnp.asarray(self.iteration.noise)
         switch = Switch(jnp.asarray(slack), size, noise, shortest, self.lowered, hybrid.roots, together, n_x)
@@ -238,7 +239,7 @@ class _Stretches:
         result = EVENT if happened else RESULTS.index(name) if name in RESULTS else 1
         if result == 0:
             self._check_seen(t_end, z_end, p, slack)
-        roots = _switched(self.iteration, equations, t_end, z_end, p, slack) if happened else None
+        roots = _switched(self.iteration, equations, t_end, z_end, p, slack, before) if happened else None
         return Stretch(found, result, n, t_end, z_end, 0.0, roots, named)
 
     def _check_seen(self, t: float, z: Floats, p: Floats, slack: Floats) -> None:
@@ -416,21 +417,26 @@ def _look(switch: Switch, begin: Any, t: Any, w: Any, p: Any) -> tuple[Any, Any]
     return w, -switch.sides(t, w, p)
 
 
-def _slack(iteration: EventIteration, equations: Equations, t: float, z: Floats, p: Floats) -> Floats:
-    side = -sides(iteration.hybrid, equations, t, z, p)
-    return np.where(side <= iteration.noise, 10.0 * np.abs(side) + iteration.noise + TINY, 0.0)
+def _slack(iteration: EventIteration, before: Floats) -> Floats:
+    """What conditions may be on the other side that are at their switch at the start of a stretch."""
+    return np.where(-before <= iteration.noise, 10.0 * np.abs(before) + iteration.noise + TINY, 0.0)
 
 
-def _switched(iteration: EventIteration, equations: Equations, t: float, z: Floats, p: Floats, slack: Floats) -> Any:
+def _switched(
+    iteration: EventIteration, equations: Equations, t: float, z: Floats, p: Floats, slack: Floats, before: Floats
+) -> Any:
     """The conditions that switch at a root: what is behind its switch, and what is there but for rounding.
 
     If rounding has put none behind, it is the one that is nearest for its size. What has rested at its switch since
     the start of the stretch (it has `slack`) is no nearer to it than it was: it switches where it has left its slack
-    behind.
+    behind. Neither is what has switched just before and moves away.
+
+    Args:
+        slack, before: of the start of the stretch; `before` as `sides`.
     """
     settled = equations.settle(t, z, p)
     distance = slack - sides(iteration.hybrid, equations, t, z if settled is None else settled, p)
-    behind, moving = distance <= 0.0, slack == 0.0
+    behind, moving = distance <= 0.0, (slack == 0.0) & (distance < -before)
     size = np.maximum(iteration.sizes_of_roots, np.abs(distance)) + TINY
     nearest = behind if behind.any() else moving if moving.any() else np.ones_like(moving)
     least = (distance / size)[nearest].min()

@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import acausal as ac
-from acausal import Component, Equations, connect, start
+from acausal import Component, Equations, Variable, connect, der, start, where
 from acausal.components import rotational
 
 
@@ -37,3 +37,25 @@ def test_what_rests_but_for_rounding_is_stuck(engine: Any) -> None:
     assert_allclose(solution["bearing.mode"], 0.0)
     w = np.sqrt(5.0)
     assert_allclose(solution["load.phi"], -0.05 * np.cos(w * np.array([0.0, 0.25, 0.5])), atol=1e-7)
+
+
+class Soon(Component):
+    """x begins to rise at 1 s, and has passed 0 within the rounding of time."""
+
+    x: Variable = Variable(start=-1e-10, fixed=True)
+    y: Variable = Variable(start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == where(ac.time < 1.0, 0.0, where(self.x > 0.0, 300.0, 3000.0))
+        yield der(self.y) == where(ac.time < 1.0, 1.0, 0.0)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_what_has_just_switched_does_not_switch_back(engine: Any) -> None:
+    """The second event is so soon that time is still at its threshold but for rounding, and moves away from it."""
+    system = ac.compile(Soon())
+    for x in (-1e-10, -3e-10, -1e-9):
+        solution = system.simulate(2.0, engine=engine, initial={"x": x}, saveat=2)
+        assert [len(event.causes) for event in solution.events] == [1, 1]
+        assert abs(solution["x"][-1] - 300.0) < 1e-8
+        assert abs(solution["y"][-1] - 1.0) < 1e-13
