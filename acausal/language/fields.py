@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import Any, Generic, TypeVar, cast, overload
 
 from ..errors import DeclarationError, nearest
+from .declarations import Start
 from .instance import Instance, call_site, field_names, path_text, record
 
 C = TypeVar("C", bound=Instance)
@@ -17,7 +18,8 @@ class Array(Generic[C]):
     Args:
         element: the component that is repeated.
         count: an integer, or the name of a structural parameter or of a property of the class.
-        **values: per-element values of the element's parameters or start values, sequences of length `count`.
+        **values: per-element values of the element's parameters or start values, sequences of length `count`; of a
+            vector a sequence of vectors, ``r=[(1, 0, 0), (0, 1, 0)]`` (one vector alone is that of all elements).
     """
 
     def __init__(self, element: C, count: int | str, **values: Any) -> None:
@@ -31,7 +33,7 @@ class Array(Generic[C]):
                 )
         self._element = element
         self._count = count
-        self._values = values
+        self._values = {k: v for name, value in values.items() for k, v in _by_component(cls, name, value).items()}
         self._path: tuple[Any, ...] = ()
         self._length: int | None = count if isinstance(count, int) else None
 
@@ -62,6 +64,29 @@ class Array(Generic[C]):
 
     def __repr__(self) -> str:
         return f"Array({self._element!r}, {self._count!r})"
+
+
+def _by_component(cls: type[Instance], name: str, value: Any) -> dict[str, Any]:
+    """What the values of field `name` give to each component of it, where it is a vector that varies."""
+    whole = cls._vectors.get(name)
+    start = isinstance(value, Start)
+    items: Any = value.value if start else value
+    items = items.tolist() if hasattr(items, "tolist") else items
+    if whole is None or _depth(items) <= whole.depth:
+        return {name: value}
+    try:
+        rows = [whole.modifications(item) for item in items]
+    except DeclarationError as error:
+        raise DeclarationError(f"Array({cls.__name__}(), ..., {name}=...): {error} {call_site()}") from None
+    columns: dict[str, Any] = {key: [row[key] for row in rows] for key in whole.names()}
+    if start:
+        columns = {key: Start(v, value.fixed, value.nominal, value.state_select) for key, v in columns.items()}
+    return columns
+
+
+def _depth(items: Any) -> int:
+    """How deep sequences are nested."""
+    return 1 + _depth(items[0]) if isinstance(items, (list, tuple)) and items else 0
 
 
 class Shared:

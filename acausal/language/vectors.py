@@ -43,9 +43,11 @@ class Quantities:
 
     Attributes:
         elements: declarations (of a class body) or expressions, row by row.
+        depth: how deep its values are nested.
     """
 
     elements: tuple[Any, ...]
+    depth: int = 1
     __array_ufunc__ = None  # numbers of numpy leave the operation to us
     name: str = ""
 
@@ -236,6 +238,8 @@ class Matrix(Quantities):
         values: default of a parameter or start values of a variable, a sequence of rows.
         shape: numbers of rows and columns; as the values have them, 3 and 3 without any.
     """
+
+    depth = 2
 
     def __init__(self, element: Declaration, values: Any = None, *, shape: tuple[int, int] | None = None) -> None:
         if shape is None:

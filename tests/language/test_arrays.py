@@ -4,9 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 import acausal as ac
-from acausal import Array, Component, Equations, Parameter, Variable, connect, der, start
+from acausal import (
+    Array,
+    Component,
+    DeclarationError,
+    Equations,
+    Matrix,
+    Parameter,
+    Variable,
+    Vector,
+    connect,
+    der,
+    start,
+)
 from acausal.language.flatten import flatten
 
 from .parts import RC, Capacitor, Cell, Conductor, Diode, Ground, Pin, Resistor, Source, TwoPin
@@ -247,3 +260,40 @@ def test_a_hundred_thousand_components_are_one_family_per_equation() -> None:
     assert large.name(8 + 18 * 33_333) == "cells[33333].p.v"
     ids, _ = large.names.find("cells[:].capacitor.v")
     assert ids.shape == (33_334,)
+
+
+class Beam(Component):
+    """A part with a vector and a matrix."""
+
+    r: Vector = Vector(Parameter(), (1.0, 0.0, 0.0))
+    T: Matrix = Matrix(Parameter(), ((1.0, 0.0), (0.0, 1.0)))
+    x: Vector = Vector(Variable(), size=3)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.r * self.T[1, 0]
+
+
+def test_vectors_that_vary_along_an_array() -> None:
+    class Frame(Component):
+        beams: Array[Beam] = Array(
+            Beam(), 2, r=np.array([(1.0, 2.0, 3.0), (4.0, 5.0, 6.0)]), T=[((1, 2), (3, 4)), ((5, 6), (7, 8))],
+            x=start([(0.1, 0.2, 0.3), (0.4, 0.5, 0.6)], fixed=True),  # type: ignore[arg-type]
+        )  # fmt: skip
+        same: Array[Beam] = Array(Beam(), 2, r=(0.0, 0.0, 2.0), x=start((7.0, 8.0, 9.0), fixed=True))
+
+    solution = ac.compile(Frame()).simulate(1.0, saveat=2)
+    assert_allclose(solution["beams[0].x"], [[0.1, 0.2, 0.3], [3.1, 6.2, 9.3]])
+    assert_allclose(solution["beams[1].x"], [[0.4, 0.5, 0.6], [28.4, 35.5, 42.6]])
+    assert_allclose(solution["same[1].x"][0], [7.0, 8.0, 9.0])
+    assert_allclose(solution["same[1].x"][1], [7.0, 8.0, 9.0])  # T[2,1] is 0 by default
+
+
+def test_vectors_along_an_array_have_the_length_of_the_field() -> None:
+    with pytest.raises(DeclarationError, match=r"Array\(Beam\(\), \.\.\., r=\.\.\.\): `r` has 3 elements, not 2"):
+        Array(Beam(), 2, r=[(1.0, 2.0), (3.0, 4.0)])
+
+    class Short(Component):
+        beams: Array[Beam] = Array(Beam(), 3, r=[(1.0, 2.0, 3.0), (4.0, 5.0, 6.0)])
+
+    with pytest.raises(DeclarationError, match=r"beams\.r\[1\]"):
+        ac.compile(Short())
