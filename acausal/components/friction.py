@@ -15,7 +15,7 @@ still hold it, and it accelerates by no more: that is 1e-11 of `sa`, too little 
 what is solved for is `along`, counted from the corner of the characteristic that the element was at before: the torque
 while stuck, the acceleration itself while sliding. How elements on rigid gears share a load is then known to rounding
 (linear systems are solved with a step of refinement); where it follows from the difference of two accelerations, as of
-clutches side by side, rounding leaves 1e-16 over GIVE undetermined.
+clutches in a ring, rounding leaves 1e-16 over GIVE undetermined.
 """
 LEAST = 1e-12
 """Keeps the share of what an element can hold finite where it can hold nothing."""

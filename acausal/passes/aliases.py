@@ -14,6 +14,7 @@ from ..language.flat_model import Bools, Family, FlatModel
 from ..language.template import Ints
 from ..symbolic.expr import Expr, add, neg, var
 from .specialize import merge, specialize
+from .twins import twins
 
 SHOWN = 8
 """Equations named with a redundant one."""
@@ -86,7 +87,9 @@ def eliminate_aliases(flat: FlatModel) -> Reduced:
     families = merge(flat.families)
     keep = (flat.derivative_of >= 0) | (flat.parent >= 0)
     while True:
+        families, repeated = twins(families)
         families, found = _detect(families)
+        found = [*found, *repeated]
         for family, sign in found:
             zero = sign == 0
             b = family.var_rows[:, 0 if zero else 1]
@@ -97,7 +100,7 @@ def eliminate_aliases(flat: FlatModel) -> Reduced:
         representative = np.asarray(sets.representative)
         sign = np.where(np.asarray(sets.is_zero), 0, np.asarray(sets.sign)).astype(np.int64)
         families = specialize(families, representative, sign)
-        if not any(_alias_sign(f.residual) is not None for f in families):
+        if not any(_alias_sign(f.residual) is not None for f in families) and not twins(families)[1]:
             break
     closing = order[np.asarray(sets.redundant_edges, np.int64)]
     redundant = [_redundant(flat, edges, int(e), closing) for e in closing]

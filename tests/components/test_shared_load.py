@@ -73,3 +73,25 @@ def test_each_stuck_element_carries_its_share(n: int, gear: str, engine: Any) ->
 
 def _ratio(solution: ac.Solution, k: int) -> float:
     return float(np.prod([solution.system.parameters[f"gear{i}.ratio"] for i in range(1, k + 1)]))
+
+
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+def test_clutches_side_by_side_between_shafts_that_accelerate(engine: Any) -> None:
+    """One holds the other shaft the other way round; each holds the same part of what it can."""
+    rng = np.random.default_rng(1)
+    clutches = {f"c{k}": rot.Clutch(fn_max=rng.uniform(5, 10), mu_pos=[[0, 0.4], [3, 0.3]]) for k in range(4)}
+    ends = [("one", "two"), ("one", "two"), ("two", "one"), ("one", "two")]
+    lines = ["s.y - tau.tau", "tau.flange - one.flange_a"]
+    for name, (a, b) in zip(clutches, ends, strict=True):
+        lines += [f"press.y - {name}.f_normalized"]
+        lines += [f"{a}.flange_b - {name}.flange_a", f"{name}.flange_b - {b}.flange_a"]
+    model = assemble(
+        *lines, **clutches, s=blocks.Sine(amplitude=3.0, f=0.5), tau=rot.Torque(), press=blocks.Constant(k=1.0),
+        one=rot.Inertia(J=1.0, phi=start(0.0, fixed=True), w=start(0.0, fixed=True)),
+        two=rot.Inertia(J=2.0, phi=start(0.0, fixed=True), w=start(0.0, fixed=True)),
+    )  # fmt: skip
+    run = ac.compile(model).simulate(T[-1], saveat=T, rtol=1e-8, engine=engine, max_steps=400)
+    share = np.array([run[f"{n}.tau"] / run[f"{n}.tau0_max"] for n in clutches]) * np.array([[1], [1], [-1], [1]])
+    assert np.ptp(share, axis=0).max() <= PRECISE * np.abs(share).max()
+    carried = sum(run[f"{n}.tau"] * (-1 if n == "c2" else 1) for n in clutches)
+    np.testing.assert_allclose(carried, -2 / 3 * run["s.y"], atol=1e-8)
