@@ -87,3 +87,25 @@ class Jumps(Component):
 def test_a_jump_of_the_right_hand_side_is_crossed(engine: Any, high: float) -> None:
     solution = ac.compile(Jumps(high=high)).simulate(1.5, saveat=4, engine=engine, rtol=1e-6)
     assert abs(solution["x"][-1] / (1.0 + 0.5 * high) - 1) < 1e-5
+
+
+class Filling(Component):
+    """A level that rises at the rate k up to a limit, which the solver has to find by its steps."""
+
+    k: Parameter = Parameter(4.0)
+    limit: Parameter = Parameter(2.0)
+    x: Variable = Variable(start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == noevent(where(self.x > self.limit, 0.0, self.k))
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_jump_that_steps_have_to_cross_does_not_hold_them(engine: Any) -> None:
+    """A step that mixes values from both sides of the jump may end before it; the next ones must get beyond."""
+    random, system = np.random.default_rng(1), ac.compile(Filling())
+    for _ in range(30):
+        rtol = 10.0 ** random.uniform(-11, -4)
+        values = {"k": random.uniform(1.0, 10.0), "limit": random.uniform(0.1, 2.9)}
+        solution = system.simulate(3.0, parameters=values, rtol=rtol, saveat=2, max_steps=400, engine=engine)
+        assert abs(solution["x"][-1] - values["limit"]) < 100 * rtol * 3.0
