@@ -163,6 +163,27 @@ def test_parameter_out_of_bounds_at_simulate(tmp_path: Path) -> None:
     error_of(tmp_path, dependent, ac.DeclarationError, ["`resistor.k` [1] = 18 lies outside"])
 
 
+def test_a_library_component_out_of_bounds_is_found_where_it_is_declared(tmp_path: Path) -> None:
+    """Limits the wrong way round are seen deep in a controller: the message names the user's own field."""
+    text = """
+        from acausal.components import blocks
+
+        class Loop(Component):
+            wanted: blocks.Constant = blocks.Constant(k=1.0)
+            control: blocks.LimPID = blocks.LimPID(yMax=1.0, yMin=2.0)  # HERE
+            plant: blocks.FirstOrder = blocks.FirstOrder(T=1.0)
+
+            def equations(self) -> Equations:
+                yield connect(self.wanted.y, self.control.u_s)
+                yield connect(self.control.y, self.plant.u)
+                yield connect(self.plant.y, self.control.u_m)
+
+        ac.compile(Loop()).simulate(1.0)
+        """
+    words = ["`control.limiter.span` = -1 lies outside its bounds [0, inf] (upper", "Written in:"]
+    error_of(tmp_path, text, ac.DeclarationError, words)
+
+
 PARAMETER_LINE = """\
 class Bounded(Resistor):
     base: Parameter = Parameter(1.0)

@@ -95,6 +95,7 @@ class LimIntegrator(Integrator):
     limitsAtInit: bool = True
     outMax: Parameter = Parameter(1.0, doc="upper limit of the output")
     outMin: Parameter = Parameter(-outMax, doc="lower limit of the output")
+    span: Parameter = Parameter(outMax - outMin, min=0.0, doc="upper limit less the lower one")
     begunInside: Discrete = Discrete(start=1.0, doc="whether the start is within the limits, without limitsAtInit")
 
     def rate(self) -> Expr:

@@ -23,6 +23,7 @@ class Limiter(SISO):
 
     uMax: Parameter = Parameter(1.0, doc="upper limit")
     uMin: Parameter = Parameter(-uMax, doc="lower limit")
+    span: Parameter = Parameter(uMax - uMin, min=0.0, doc="upper limit less the lower one")
 
     def equations(self) -> Equations:
         yield from super().equations()
