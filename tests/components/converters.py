@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.linalg import expm
@@ -173,7 +174,7 @@ def solved(
                 break
             last = int(np.argmax(sides != on))
             low = grid[last - 1] if last else 1e-6 * grid[0]
-            at = float(brentq(lambda s, f=linear, x=x, b=beyond: b(moved(f, x, s)), low, grid[last], xtol=1e-18))
+            at: Any = brentq(lambda s, f=linear, x=x, b=beyond: b(moved(f, x, s)), low, grid[last], xtol=1e-18)
             x, t, on = moved(linear, x, at), t + at, not on
             events.append(t)
         if stop < t1:
