@@ -346,6 +346,8 @@ class EventIteration(ModeSearch):
         z, left, values = self._first_modes(t0, p, solve)
         self.rounding = 0.0
         point = Point(t0, values, p)
+        if slots.initial >= 0:  # assertions on the start itself
+            self._check(point)
         self.moves = []
         seen = self._active(p)
         ended = self._ends(point) if seen else None

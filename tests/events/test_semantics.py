@@ -300,6 +300,22 @@ class Over(Clock):
         yield when(ac.initial(), terminate("nothing to do"))
 
 
+class Begun(Clock):
+    """Says what a start has to be."""
+
+    least: Parameter = Parameter(0.5)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield ac.assert_(~ac.initial() | (self.least < 1.0), "least is too large")
+
+
+def test_assertions_on_the_start_alone(engine: Any) -> None:
+    run(Begun(), 1.0, engine)
+    with pytest.raises(ac.SimulationError, match=r"At t = 0 s the assertion of Begun .* least is too large"):
+        run(Begun(), 1.0, engine, parameters={"least": 2.0})
+
+
 def test_an_end_at_the_start_is_an_event(engine: Any) -> None:
     solution = run(Over(), 1.0, engine)
     assert "nothing to do" in str(solution.result)
