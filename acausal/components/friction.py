@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+
 import acausal as ac
 from acausal import PI, DeclarationError, Expr
 
@@ -52,3 +56,38 @@ def regularized_sign(share: Expr, reg: str, owner: str) -> Expr:
     if reg == "CoSine":
         return ac.sign(within) * (1 - ac.cos(PI / 2 * within))
     raise DeclarationError(f"{owner}: reg={reg!r} is not one of {', '.join(REGULARIZATIONS)}")
+
+
+def table_columns(
+    owner: object, field: str, rows: Sequence[Sequence[float]], *columns: str, largest: Sequence[float] = ()
+) -> list[list[float]]:
+    """The columns of a table of friction or losses over the speed, one row for each speed.
+
+    Args:
+        owner, field: the component and its field that holds the table, for errors.
+        rows: the table.
+        columns: names of its columns behind the speed.
+        largest: bounds of the first of them, which then must not be zero.
+
+    Raises:
+        DeclarationError: rows of another length, speeds that do not begin at 0 and increase, or values out of bounds.
+    """
+    shape = f"rows (speed, {', '.join(columns)})"
+    problem = ""
+    if not rows or any(len(row) != 1 + len(columns) for row in rows):
+        problem = f"it takes {shape}"
+    elif not all(math.isfinite(value) for row in rows for value in row):
+        problem = "its values have to be finite numbers"
+    elif rows[0][0] != 0.0 or any(b[0] <= a[0] for a, b in pairwise(rows)):
+        problem = f"the speeds of its {shape} begin at 0 and increase"
+    else:
+        for name, k in zip(columns, range(1, 1 + len(columns)), strict=True):
+            values = [row[k] for row in rows]
+            bounded = k <= len(largest)
+            if min(values) < 0.0 or (bounded and (min(values) == 0.0 or max(values) > largest[k - 1])):
+                within = f"has to be above 0 and at most {largest[k - 1]:g}" if bounded else "must not be negative"
+                problem = f"{name} {within}"
+                break
+    if problem:
+        raise DeclarationError(f"{type(owner).__name__}({field}={[list(row) for row in rows]}): {problem}")
+    return [list(column) for column in zip(*rows, strict=True)]

@@ -8,7 +8,7 @@ import acausal as ac
 from acausal import Component, Discrete, Equations, Expr, Input, Parameter, Variable, der, pre, where
 
 from .. import blocks, thermal
-from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, yielding
+from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, table_columns, yielding
 from .interfaces import PartialCompliantWithRelativeStates, PartialTwoFlangesAndSupport
 
 
@@ -101,7 +101,7 @@ class BearingFriction(thermal.PartialConditionalHeatPort, PartialFriction, Parti
 
     def equations(self) -> Equations:
         yield from super().equations()
-        speeds, torques = [row[0] for row in self.tau_pos], [row[1] for row in self.tau_pos]
+        speeds, torques = table_columns(self, "tau_pos", self.tau_pos, "torque")
         yield self.tau0 == self.unitTorque * blocks.interpolate(0.0 * self.speed, speeds, torques)
         yield self.tau0_max == self.peak * self.tau0
         yield self.free == 0.0
@@ -136,7 +136,7 @@ class PartialNormalForce(PartialFriction, partial=True):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        speeds, coefficients = [row[0] for row in self.mu_pos], [row[1] for row in self.mu_pos]
+        speeds, coefficients = table_columns(self, "mu_pos", self.mu_pos, "friction coefficient")
         yield self.fn == self.fn_max * self.f_normalized
         yield self.free == where(self.fn <= 0, 1.0, 0.0)
         yield self.tau0 == blocks.interpolate(0.0 * self.speed, speeds, coefficients) * self.cgeo * self.fn
@@ -239,7 +239,7 @@ class OneWayClutch(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
 
     def equations(self) -> Equations:
         yield from super().equations()
-        speeds, coefficients = [row[0] for row in self.mu_pos], [row[1] for row in self.mu_pos]
+        speeds, coefficients = table_columns(self, "mu_pos", self.mu_pos, "friction coefficient")
         rest = blocks.interpolate(0.0 * self.speed, speeds, coefficients) * self.cgeo
         free, along = self.f_normalized <= 0, self.along
         low, high = self.tau0 / self.unitTorque, self.tau0_max / self.unitTorque

@@ -8,7 +8,7 @@ import acausal as ac
 from acausal import Discrete, Equations, Expr, Parameter, Variable, der, pre, where
 
 from .. import blocks, thermal
-from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, yielding
+from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, table_columns, yielding
 from .interfaces import PartialTwoFlangesAndSupport
 
 
@@ -57,10 +57,9 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
 
     def losses(self, speed: Expr) -> tuple[Expr, Expr]:
         """Torques lost while rolling forward and backward, at this speed."""
-        at = [row[0] for row in self.lossTable]
-        eta1, eta2, bearing1, bearing2 = (
-            blocks.interpolate(speed, at, [row[k] for row in self.lossTable]) for k in range(1, 5)
-        )
+        names = "eta_mf1", "eta_mf2", "tau_bf1", "tau_bf2"
+        at, *columns = table_columns(self, "lossTable", self.lossTable, *names, largest=(1.0, 1.0))
+        eta1, eta2, bearing1, bearing2 = (blocks.interpolate(speed, at, column) for column in columns)
         forth, back, unit = (1 - eta1) * self.tau_a, (1 - 1 / eta2) * self.tau_a, self.unitTorque
         lost = 1 / eta2 - eta1  # zero where the teeth lose nothing; who drives makes no difference then
         bearing_a = unit * ac.noevent(where(lost > 0, (bearing2 - bearing1) / ac.max(lost, 1e-12), bearing1 / 2))

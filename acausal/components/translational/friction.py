@@ -8,7 +8,7 @@ import acausal as ac
 from acausal import Component, Discrete, Equations, Expr, Input, Parameter, Variable, der, pre, reinit, when, where
 
 from .. import blocks, thermal
-from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, yielding
+from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, table_columns, yielding
 from .interfaces import PartialRigid, PartialTwoFlangesAndSupport
 
 
@@ -109,7 +109,7 @@ class SupportFriction(thermal.PartialConditionalHeatPort, PartialFriction, Parti
 
     def equations(self) -> Equations:
         yield from super().equations()
-        speeds, forces = [row[0] for row in self.f_pos], [row[1] for row in self.f_pos]
+        speeds, forces = table_columns(self, "f_pos", self.f_pos, "force")
         yield self.f0 == self.unitForce * blocks.interpolate(0.0 * self.speed, speeds, forces)
         yield self.f0_max == self.peak * self.f0
         yield self.free == 0.0
@@ -144,7 +144,7 @@ class PartialNormalForce(PartialFriction, partial=True):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        speeds, coefficients = [row[0] for row in self.mu_pos], [row[1] for row in self.mu_pos]
+        speeds, coefficients = table_columns(self, "mu_pos", self.mu_pos, "friction coefficient")
         yield self.fn == self.fn_max * self.f_normalized
         yield self.free == where(self.fn <= 0, 1.0, 0.0)
         yield self.f0 == blocks.interpolate(0.0 * self.speed, speeds, coefficients) * self.cgeo * self.fn
@@ -238,4 +238,9 @@ class MassWithStopAndFriction(thermal.PartialConditionalHeatPort, PartialFrictio
         yield self.lossPower == self.f * self.v_relfric
         yield self.stopped == where(self.s <= left, -1.0, where(self.s >= right, 1.0, 0.0))
         end = where(self.stopped < 0, left, right)
+        slack = 1e-6 * (right - left)  # of a start that is found to rounding
+        clear_left = (self.s > left) | ((self.s >= left - slack) & (self.v >= 0))
+        clear_right = (self.s < right) | ((self.s <= right + slack) & (self.v <= 0))
+        message = "the ends of the mass have to start between smin and smax, and at a stop without speed towards it"
+        yield ac.assert_(~ac.initial() | (clear_left & clear_right & (left < right)), message)
         yield when(~(self.stopped == 0.0), reinit(self.s, end), reinit(self.v, 0.0))
