@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Component, Equations, Solution, System, connect, inner, start
+from acausal import Array, Component, Equations, Solution, System, connect, inner, start
 from acausal.components import multibody as mb
-from acausal.components import rotational
+from acausal.components import rotational, translational
 
 from .msl_multibody import Fourbar1
 
@@ -206,3 +206,64 @@ def test_the_length_of_a_rod_follows_from_the_start() -> None:
     solution = ac.compile(model).simulate(t1=0.5, rtol=1e-8)
     assert solution["j2.s"][0] == pytest.approx(-0.2, abs=1e-9)
     assert np.allclose(solution["rod.length"], np.sqrt(1.0 + 0.3**2 + 0.1**2), atol=1e-9)
+
+
+def around(radius: float, degrees: list[float]) -> np.ndarray:
+    angles = np.radians(degrees)
+    return radius * np.column_stack([np.cos(angles), np.zeros(6), np.sin(angles)])
+
+
+class Hexapod(Component):
+    """A Stewart platform on six elastic legs, thrown out of its rest; subclasses give the legs."""
+
+    world: mb.World = inner(mb.World(g=9.81))
+    base: Array[mb.FixedTranslation] = Array(
+        mb.FixedTranslation(), 6, r=around(1.0, [5, 115, 125, 235, 245, 355])  # type: ignore[arg-type]
+    )
+    top: Array[mb.FixedTranslation] = Array(
+        mb.FixedTranslation(), 6, r=around(0.6, [55, 65, 175, 185, 295, 305])  # type: ignore[arg-type]
+    )
+    platform: mb.Body = mb.Body(
+        m=20.0, I_11=1.0, I_22=2.0, I_33=1.2, r_0=start((0.05, 1.2, 0.02), fixed=True),
+        v_0=start((0.0, 0.0, 0.0), fixed=True), angles_fixed=True, angles_start=(0.05, 0.1, 0.0), w_0_fixed=True,
+    )  # fmt: skip
+
+    def equations(self) -> Equations:
+        for i in range(6):
+            yield connect(self.world.frame_b, self.base[i].frame_a)
+            yield connect(self.top[i].frame_a, self.platform.frame_a)
+
+
+class OnSprings(Hexapod):
+    legs: Array[mb.Spring] = Array(mb.Spring(c=4000.0, s_unstretched=1.35), 6)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield connect(self.base[:].frame_b, self.legs[:].frame_a)
+        yield connect(self.legs[:].frame_b, self.top[:].frame_b)
+
+
+class OnStruts(Hexapod):
+    legs: Array[mb.JointUPS] = Array(mb.JointUPS(nAxis_ia=(0.0, 1.0, 0.0)), 6)
+    springs: Array[translational.Spring] = Array(translational.Spring(c=4000.0, s_rel0=1.35), 6)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield connect(self.base[:].frame_b, self.legs[:].frame_a)
+        yield connect(self.legs[:].frame_b, self.top[:].frame_b)
+        yield connect(self.legs[:].bearing, self.springs[:].flange_a)
+        yield connect(self.legs[:].axis, self.springs[:].flange_b)
+
+
+@pytest.mark.slow
+def test_a_platform_on_six_legs() -> None:
+    """Springs between frames and springs in struts are the same, and both keep the energy."""
+    runs = [ac.compile(model).simulate(1.0, rtol=1e-9, saveat=101) for model in (OnSprings(), OnStruts())]
+    for name in ("platform.r_0", "platform.frame_a.R.T"):
+        assert np.abs(runs[0][name] - runs[1][name]).max() < 1e-7
+    v, w = rows(runs[0], "platform.v_0"), rows(runs[0], "platform.w_a")
+    lengths = np.column_stack([runs[1][f"legs[{i}].s"] for i in range(6)])
+    kinetic = 10.0 * (v**2).sum(axis=1) + 0.5 * w**2 @ np.array([1.0, 2.0, 1.2])
+    total = kinetic + 2000.0 * ((lengths - 1.35) ** 2).sum(axis=1) + 20.0 * 9.81 * runs[0]["platform.r_0[2]"]
+    assert np.ptp(kinetic) > 1.0
+    assert np.ptp(total) < 1e-6 * np.ptp(kinetic)

@@ -172,7 +172,7 @@ class RevolutePlanarLoopConstraint(PartialTwoFrames):
 
     In a loop of hinges with parallel axes the constraints across the plane are there several times, and the forces and
     torques that belong to them are not determined. One hinge of such a loop is replaced by this one, in which they are
-    zero.
+    zero. That both frames stay in one plane across `n` is not checked.
 
     Source: Modelica.Mechanics.MultiBody.Joints.RevolutePlanarLoopConstraint.
 
