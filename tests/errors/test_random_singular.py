@@ -30,8 +30,9 @@ def system_of(rows: Rows, n: int) -> Component:
     def equations(self: Any) -> Equations:
         for i, row in enumerate(rows):
             unknowns = [getattr(self, f"x{j}") for j in row]
-            terms: list[Any] = [2 * x + sin((i + 1) * x) for x in unknowns]
-            yield sum(terms[1:], terms[0]) == 100 + i + ac.time
+            terms = [2 * x + sin((i + 1) * x) for x in unknowns]
+            total: Any = sum(terms[1:], terms[0])
+            yield total == 100 + i + ac.time
 
     names = [f"x{j}" for j in range(n)]
     fields: dict[str, Any] = {name: Variable() for name in names}
