@@ -23,12 +23,13 @@ from .lowering.lowered import Lowered
 from .lowering.numeric import is_concrete
 from .lowering.parameters import ParameterProgram
 from .passes.aliases import Reduced
-from .passes.schedule import Schedule
+from .passes.schedule import Group, Schedule
 from .passes.structure import IndexReduced
 from .precision import enable_double_precision
 from .report import Report, make_report
 from .symbolic.expr import Expr
 from .symbolic.printing import path_text
+from .undetermined import check_determined
 
 if TYPE_CHECKING:
     import diffrax
@@ -103,6 +104,11 @@ class System:
         names = flat.names.all_parameters
         free = np.flatnonzero(~program.dependent[: flat.n_par] & ~flat.evaluated)
         return {names[i]: float(program.default[i]) for i in free.tolist()}
+
+    @cached_property
+    def divided(self) -> tuple[Group, ...]:
+        """Groups of equations that give zero for an unknown, if something is not zero."""
+        return tuple(group for group in self.stages.schedule.groups if group.kernel.divisors)
 
     @cached_property
     def states(self) -> tuple[str, ...]:
@@ -292,6 +298,7 @@ class System:
         from .report import explain_initial
 
         check_parameters(self.stages.flat, p)
+        check_determined(self, p)
         values = np.concatenate([np.ravel(np.asarray(a)) for a in (x0, w0, left)])
         if np.isfinite(values).all() and (not np.size(left) or float(np.max(np.asarray(left))) <= ACCEPTED):
             return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,7 +15,7 @@ from ..language.template import Floats, Ints
 from ..symbolic.differentiate import partial
 from ..symbolic.expr import ZERO, Expr, add, div, mul, neg, par, var
 from ..symbolic.isolate import Isolated, Solvability, isolate
-from ..symbolic.traverse import contains, evaluate, postorder, substitute
+from ..symbolic.traverse import contains, evaluate, leaves, postorder, substitute
 from .states import Selected
 from .structure import IndexReduced
 
@@ -37,6 +38,7 @@ class Kernel:
         tears: unknowns that are found first, by a linear system or by iteration.
         residuals: as many equations as tears, for iteration.
         matrix, rhs: the linear system for the tears, where the residuals are affine in them.
+        divisors: factors, made of parameters, of unknowns that are zero for that they are not (`undetermined`).
     """
 
     size: int
@@ -45,6 +47,7 @@ class Kernel:
     residuals: tuple[Expr, ...] = ()
     matrix: tuple[tuple[Expr, ...], ...] = ()
     rhs: tuple[Expr, ...] = ()
+    divisors: tuple[Expr, ...] = ()
 
     @property
     def iterates(self) -> bool:
@@ -169,7 +172,8 @@ def _single_kernel(residual: Expr, slot: int, others: list[int]) -> Kernel:
     form = substitute(residual, renumber)
     isolated = isolate(form, var(0))
     if isolated.solution is not None:
-        return Kernel(1, ((0, isolated.solution),))
+        divisors = _dividing((isolated.solution,), isolated.coefficient)
+        return Kernel(1, ((0, isolated.solution),), divisors=divisors)
     return Kernel(1, (), (0,), (form,))
 
 
@@ -275,7 +279,14 @@ def finish_kernel(m: int, steps: list[tuple[int, Expr]], tears: tuple[int, ...],
     rest = [neg(substitute(r, {var(t): ZERO for t in tears})) for r in closed]
     if len(tears) > SYMBOLIC:
         return Kernel(m, tuple(steps), tears, (), tuple(map(tuple, matrix)), tuple(rest))
-    return Kernel(m, (*zip(tears, cramer(matrix, rest), strict=True), *steps))
+    found = cramer(matrix, rest)
+    return Kernel(m, (*zip(tears, found, strict=True), *steps), divisors=_dividing(found, _determinant(matrix)))
+
+
+def _dividing(solutions: Sequence[Expr], divisor: Expr) -> tuple[Expr, ...]:
+    """The divisor of the solutions, where one of them is zero without it and parameters decide whether it is zero."""
+    hidden = any(solution is ZERO for solution in solutions)
+    return (divisor,) if hidden and {leaf.op for leaf in leaves(divisor)} == {"par"} else ()
 
 
 def cramer(matrix: list[list[Expr]], rhs: list[Expr]) -> list[Expr]:

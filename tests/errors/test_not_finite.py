@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Component, Equations, Variable, der
-from acausal.errors import SimulationError, StructureError
+from acausal import Component, Equations, Parameter, Variable, der
+from acausal.errors import InitializationError, SimulationError, StructureError
 
 ENGINES = pytest.mark.parametrize("engine", ["native", "diffrax"])
 
@@ -44,6 +44,33 @@ def test_values_as_they_are(engine: Any) -> None:
     assert np.isnan(frame["y"].to_numpy()[-1])
     loose = system.simulate(1.0, saveat=[0.0, 1.0], engine=engine, throw=False)
     assert np.isnan(loose["y"][-1])
+
+
+class Ring(Component):
+    """Two gains in a ring: ``(1 - k*g)*y == 0``."""
+
+    k: Parameter = Parameter(1.0)
+    g: Parameter = Parameter(0.1)
+    x: Variable = Variable(start=1.0, fixed=True)
+    y: Variable = Variable()
+    u: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.y - self.x
+        yield self.y == self.k * self.u
+        yield self.u == self.g * self.y
+
+
+@ENGINES
+@pytest.mark.parametrize("gain", [10.0, 1 / 3])
+def test_zero_times_an_unknown_is_zero(engine: Any, gain: float) -> None:
+    """Whatever the unknown is: without an error it would come out as zero."""
+    system = ac.compile(Ring())
+    assert system.simulate(1.0, engine=engine)["y"][-1] == 0.0
+    with pytest.raises(InitializationError, match=r"do not determine `.`, `.`: any value solves them") as info:
+        system.simulate(1.0, engine=engine, parameters={"k": gain, "g": 1 / gain})
+    for words in ("y = k*u", "u = g*y", "test_not_finite.py"):
+        assert words in str(info.value)
 
 
 @ENGINES
