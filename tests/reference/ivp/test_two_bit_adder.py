@@ -252,7 +252,7 @@ def test_index() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("engine", ["native"])
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_all_sums(engine: Any) -> None:
     """The sum where the inputs are at rest, and all potentials at the end."""
     rest = np.arange(10.0, T1 + 1, 10.0)
