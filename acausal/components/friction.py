@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import acausal as ac
-from acausal import PI, DeclarationError, Expr
+from acausal import PI, Component, DeclarationError, Discrete, Equations, Expr, Variable, pre, where
 
 FREE, FORWARD, STUCK, BACKWARD, UNKNOWN = 2.0, 1.0, 0.0, -1.0, 3.0
 """Values of `mode`, as in Modelica.Mechanics.Rotational.Interfaces.PartialFriction."""
@@ -38,6 +38,76 @@ def yielding(held: Expr, most: Expr | float) -> Expr:
         most: what it can hold.
     """
     return GIVE * held / (most + LEAST)
+
+
+class StickSlip(Component, partial=True):
+    """State machine of dry friction: sliding forward, sliding backward, stuck, or free.
+
+    While stuck the unknown `sa` is what holds, in units of torque or force. While sliding it is the acceleration,
+    shifted so that the characteristic has no jump.
+
+    Source: Modelica.Mechanics.Rotational.Interfaces.PartialFriction; Otter, Elmqvist and Mattsson, Hybrid modeling in
+    Modelica based on the synchronous data flow principle, CACSD 1999.
+    """
+
+    free: Discrete = Discrete(doc="whether the frictional element is not active")
+    sa: Variable = Variable(doc="curve parameter of the friction characteristic")
+    along: Variable = Variable(doc="sa from its corner: what holds while stuck, what accelerates while sliding")
+    startForward: Discrete = Discrete(doc="whether the relative speed is 0 and forward sliding starts")
+    startBackward: Discrete = Discrete(doc="whether the relative speed is 0 and backward sliding starts")
+    locked: Discrete = Discrete(doc="whether the relative speed is 0 and not sliding")
+    mode: Discrete = Discrete(start=UNKNOWN, doc="2 free, 1 forward, 0 stuck, -1 backward, 3 unknown")
+
+    def stick_slip(
+        self, speed: Expr, acceleration: Expr, holds: Expr, peak: Expr, small: Expr, units: tuple[Expr, Expr]
+    ) -> Equations:
+        """The equations of the state machine.
+
+        Args:
+            speed, acceleration: of the frictional surfaces, relative to each other.
+            holds: torque or force while stuck.
+            peak: the largest, over its unit.
+            small: speed near 0, for impulses that stop the motion.
+            units: of `sa` as an acceleration and as a torque or force.
+        """
+        along = self.along
+        unit_acceleration, unit_holds = units
+        was = pre(self.mode)
+        was_free, forward, stuck, backward = was == FREE, was == FORWARD, was == STUCK, was == BACKWARD
+        held = pre(self.locked) > 0.5  # what comes to rest is held first: sliding on would agree with the laws, too
+        begins, returns = ac.initial() & (speed > 0), ac.initial() & (speed < 0)
+        went, came = pre(self.startForward) > 0.5, pre(self.startBackward) > 0.5
+        ahead, back = forward | went, backward | came
+        sa = along + where(ahead, peak, where(back, -peak, 0.0))
+        yield self.sa == sa
+        upper = where(ahead, 0.0, where(back, 2 * peak, peak))  # other corners, from there
+        lower = where(ahead, -2 * peak, where(back, 0.0, -peak))
+        starts = stuck & self.ahead((held | went) & (along > upper))
+        reverses = stuck & self.behind((held | came) & (along < lower))
+        yield self.startForward == where(starts | (backward & (speed > small)) | begins, 1.0, 0.0)
+        yield self.startBackward == where(reverses | (forward & (speed < -small)) | returns, 1.0, 0.0)
+        going, coming, free = self.startForward > 0.5, self.startBackward > 0.5, self.free > 0.5
+        yield self.locked == where(free | forward | going | backward | coming, 0.0, 1.0)
+        moving = along - where(going | (forward & ~coming), upper, lower)
+        rate = where(self.locked > 0.5, yielding(sa, peak), where(free, sa, moving))
+        yield acceleration == unit_acceleration * rate
+        yield holds == where(self.locked > 0.5, sa * unit_holds, 0.0)
+        slides = self.ahead((forward | was_free | going) & (speed > 0))
+        slips = self.behind((backward | was_free | coming) & (speed < 0))
+        yield self.mode == where(free, FREE, where(slides, FORWARD, where(slips, BACKWARD, STUCK)))
+
+    def ahead(self, condition: Expr) -> Expr:
+        """`condition`, where there is room to move forward."""
+        return condition
+
+    def behind(self, condition: Expr) -> Expr:
+        """`condition`, where there is room to move backward."""
+        return condition
+
+    def direction(self) -> Expr:
+        """Sign of the sliding motion, by the mode before this moment."""
+        forward = (pre(self.mode) == FORWARD) | (self.startForward > 0.5)
+        return where(self.startBackward > 0.5, -1.0, where(forward, 1.0, -1.0))
 
 
 REGULARIZATIONS = ("Exp", "Sine", "Linear", "CoSine")

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import acausal as ac
-from acausal import Component, Discrete, Equations, Expr, Input, Parameter, Variable, der, pre, reinit, when, where
+from acausal import Discrete, Equations, Expr, Input, Parameter, Variable, der, reinit, when, where
 
 from .. import blocks, thermal
-from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, table_columns, yielding
+from ..friction import StickSlip, table_columns
 from .interfaces import PartialRigid, PartialTwoFlangesAndSupport
 
 
-class PartialFriction(Component, partial=True):
+class PartialFriction(StickSlip, partial=True):
     """State machine of dry friction: sliding forward, sliding backward, stuck, or free.
 
     While stuck the unknown `sa` is the friction force that holds; it lets go above ``f0_max``. While sliding it is
@@ -30,55 +30,12 @@ class PartialFriction(Component, partial=True):
     a_relfric: Variable = Variable(unit="m/s2", doc="relative acceleration between the frictional surfaces")
     f0: Variable = Variable(unit="N", doc="friction force for v = 0 and forward sliding")
     f0_max: Variable = Variable(unit="N", doc="largest friction force for v = 0 and locked")
-    free: Discrete = Discrete(doc="whether the frictional element is not active")
-    sa: Variable = Variable(doc="curve parameter of the friction characteristic")
-    along: Variable = Variable(doc="sa from its corner: what holds while stuck, what accelerates while sliding")
     holds: Variable = Variable(unit="N", doc="friction force while stuck")
-    startForward: Discrete = Discrete(doc="whether v_rel = 0 and forward sliding starts")
-    startBackward: Discrete = Discrete(doc="whether v_rel = 0 and backward sliding starts")
-    locked: Discrete = Discrete(doc="whether v_rel = 0 and not sliding")
-    mode: Discrete = Discrete(start=UNKNOWN, doc="2 free, 1 forward, 0 stuck, -1 backward, 3 unknown")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        v, along = self.v_relfric, self.along
-        peak = self.f0_max / self.unitForce
-        was = pre(self.mode)
-        was_free, forward, stuck, backward = was == FREE, was == FORWARD, was == STUCK, was == BACKWARD
-        held = pre(self.locked) > 0.5  # what comes to rest is held first: sliding on would agree with the laws, too
-        begins, returns = ac.initial() & (v > 0), ac.initial() & (v < 0)
-        went, came = pre(self.startForward) > 0.5, pre(self.startBackward) > 0.5
-        ahead, back = forward | went, backward | came
-        sa = along + where(ahead, peak, where(back, -peak, 0.0))
-        yield self.sa == sa
-        upper = where(ahead, 0.0, where(back, 2 * peak, peak))  # other corners, from there
-        lower = where(ahead, -2 * peak, where(back, 0.0, -peak))
-        starts = stuck & self.ahead((held | went) & (along > upper))
-        reverses = stuck & self.behind((held | came) & (along < lower))
-        yield self.startForward == where(starts | (backward & (v > self.v_small)) | begins, 1.0, 0.0)
-        yield self.startBackward == where(reverses | (forward & (v < -self.v_small)) | returns, 1.0, 0.0)
-        going, coming, free = self.startForward > 0.5, self.startBackward > 0.5, self.free > 0.5
-        yield self.locked == where(free | forward | going | backward | coming, 0.0, 1.0)
-        moving = along - where(going | (forward & ~coming), upper, lower)
-        rate = where(self.locked > 0.5, yielding(sa, peak), where(free, sa, moving))
-        yield self.a_relfric == self.unitAcceleration * rate
-        yield self.holds == where(self.locked > 0.5, sa * self.unitForce, 0.0)
-        slides = self.ahead((forward | was_free | going) & (v > 0))
-        slips = self.behind((backward | was_free | coming) & (v < 0))
-        yield self.mode == where(free, FREE, where(slides, FORWARD, where(slips, BACKWARD, STUCK)))
-
-    def ahead(self, condition: Expr) -> Expr:
-        """`condition`, where there is room to move forward."""
-        return condition
-
-    def behind(self, condition: Expr) -> Expr:
-        """`condition`, where there is room to move backward."""
-        return condition
-
-    def direction(self) -> Expr:
-        """Sign of the sliding motion, by the mode before this moment."""
-        forward = (pre(self.mode) == FORWARD) | (self.startForward > 0.5)
-        return where(self.startBackward > 0.5, -1.0, where(forward, 1.0, -1.0))
+        peak, units = self.f0_max / self.unitForce, (self.unitAcceleration, self.unitForce)
+        yield from self.stick_slip(self.v_relfric, self.a_relfric, self.holds, peak, self.v_small, units)
 
     def friction(self, sliding: Expr) -> Expr:
         """Friction force: what holds while locked, nothing while free, else `sliding`."""
