@@ -4,12 +4,13 @@ Between events the modes are held, so that each stretch is a smooth DAE ``F(t, v
 as written has. It becomes ``x' = d, 0 = F(t, x, z)`` with the derivatives d among the unknowns z, and nothing else is
 done to it. Where F can be solved for z (index 1), SUNDIALS' IDAS integrates it. Where it cannot, Radau collocation does
 (both in CasADi): that is stable and convergent for the higher indices of mechanics, without index reduction (Hairer and
-Wanner, Solving Ordinary Differential Equations II, ch. VII.4). What was held is checked against what it stands for.
+Wanner, Solving Ordinary Differential Equations II, ch. VII.4). Its Newton steps are whole: between residuals of
+different units a line search shortens them to nothing. What was held is checked against what it stands for.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -24,10 +25,6 @@ Floats = NDArray[np.float64]
 NODES = (1.0 - np.cos(np.pi * np.linspace(0.0, 1.0, 9))) / 2.0
 """Times at which solutions are compared, as parts of the stretch between two events."""
 MIDDLE = len(NODES) // 2
-_ORDERS = np.arange(len(NODES))
-_MOMENTS = np.array([0.0 if k % 2 else 1.0 / (1.0 - k * k) for k in _ORDERS])
-WEIGHTS = np.linalg.solve(np.polynomial.chebyshev.chebvander(2.0 * NODES - 1.0, len(NODES) - 1).T, _MOMENTS)
-"""Of the nodes in an integral over the stretch (Clenshaw and Curtis)."""
 RTOL = 1e-10
 CLOSE = 1e-9
 """Events closer than this part of the run are one; so long before an event its left limits are taken."""
@@ -39,6 +36,10 @@ AGREES = 1e-5
 """Largest difference between two solutions, relative to the size of each variable."""
 FLOOR = 1e-7
 """Terms and variables smaller than this may be what rounding leaves of zero."""
+AMPLIFIED = 1e-6, 1e-3
+"""The same for states and for unknowns, where collocation differentiates: it amplifies rounding."""
+SOLVED = 1e-6
+"""Largest residual where Newton's method converged, relative to the size of the terms, at least `AMPLIFIED[1]`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,18 +106,18 @@ class Integrators:
         self.x = equations.states.tolist()
         self.z = np.setdiff1d(np.arange(equations.flat.n_total), self.x).tolist()
         y, w = ca.SX.sym("y", max(len(self.x), 1)), ca.SX.sym("w", len(self.z))
-        span, tau = ca.SX.sym("span", 2), ca.SX.sym("tau")
+        span, tau, start = ca.SX.sym("span", 2), ca.SX.sym("tau"), ca.SX.sym("start", len(self.x))
         v = ca.SX(equations.flat.n_total, 1)
         v[self.z] = w * size[self.z]
         if self.x:
-            v[self.x] = y * size[self.x]
+            v[self.x] = start + y * size[self.x]  # from the start: the derivative of a constant is zero to the last bit
         t = span[0] + (span[1] - span[0]) * tau
         (residual,) = ca.substitute([equations.residual], [equations.t, equations.v], [t, v])
         slopes = v[equations.flat.derivative_of[self.x].tolist()] / size[self.x] if self.x else ca.SX(0)
         jacobian = ca.jacobian(residual, w)
         self.regular = jacobian.shape[0] == jacobian.shape[1] == ca.sprank(jacobian)
         self.problem = {
-            "t": tau, "x": y, "z": w, "p": ca.vertcat(span, equations.m),
+            "t": tau, "x": y, "z": w, "p": ca.vertcat(span, start, equations.m),
             "ode": (span[1] - span[0]) * slopes, "alg": residual,
         }  # fmt: skip
 
@@ -128,7 +129,7 @@ class Integrators:
 
     def collocation(self, elements: int) -> Any:
         """Radau collocation with five points in each finite element."""
-        newton = {"abstol": 1e-11, "max_iter": 20, "error_on_fail": False}
+        newton = {"abstol": 1e-11, "max_iter": 20, "line_search": False, "error_on_fail": False}
         options = {
             "interpolation_order": 5, "collocation_scheme": "radau", "number_of_finite_elements": elements,
             "rootfinder": "newton", "rootfinder_options": newton,
@@ -137,35 +138,47 @@ class Integrators:
 
     def run(self, integrator: Any, stretch: Stretch) -> Floats:
         """All variables on the times of a stretch, (n_total, n), from its start; nan where the integrator fails."""
-        at_start, size = stretch.v[:, 0] / self.size, self.size[:, None]
-        found = np.full(stretch.v.shape, np.nan)
-        given = np.concatenate([stretch.t[[0, -1]], stretch.modes])
+        size, found = self.size[:, None], np.full(stretch.v.shape, np.nan)
+        start = stretch.v[self.x, 0]
+        given = np.concatenate([stretch.t[[0, -1]], start, stretch.modes])
         try:
-            result = integrator(x0=at_start[self.x] if self.x else 0.0, z0=at_start[self.z], p=given)
+            result = integrator(x0=0.0, z0=stretch.v[self.z, 0] / self.size[self.z], p=given)
         except RuntimeError:  # which says that the integrator failed; the caller goes on to another
             return found
         if self.x:
-            found[self.x] = result["xf"].full() * size[self.x]
+            found[self.x] = start[:, None] + result["xf"].full() * size[self.x]
         found[self.z] = result["zf"].full() * size[self.z]
-        if integrator.class_name() == "Collocation":  # gives no unknowns at the start, and does not need them
-            found[:, 0] = stretch.v[:, 0]
+        return found
+
+    def collocate(self, elements: int, stretch: Stretch) -> Floats:
+        """What collocation makes of a stretch, as `run` gives it, but nan where Newton's method does not converge."""
+        found = self.run(self.collocation(elements), stretch)
+        found[:, 0] = stretch.v[:, 0]  # it gives no unknowns at the start, and does not need them
+        left, sizes = _residuals(self.equations, replace(stretch, v=found))
+        if (left > SOLVED * (sizes + AMPLIFIED[1])).any():  # where an unknown is nan it says so itself
+            found[:] = np.nan
         return found
 
     def disagreement(self, stretch: Stretch) -> float:
         """Largest difference to another integrator's solution, relative to the size of each variable.
 
-        IDAS gives all variables. Of collocation the states count: for an index above 1 it amplifies rounding in the
-        unknowns, which the states and the residuals determine.
+        Where collocation stands in for IDAS, the states count: they determine the unknowns of regular equations, which
+        have their residuals, and derivatives of stiff states are less precise.
         """
         best = np.inf
         if self.regular:
             found = self.run(self.idas, stretch)
             best = _largest(np.abs(found - stretch.v).max(axis=1) / self.size)
+        size, counts = self.size, self.x
+        if not self.regular:
+            counts, floor = np.arange(len(size)), np.full(len(size), AMPLIFIED[1])
+            floor[self.x] = AMPLIFIED[0]
+            size = np.maximum(size, floor)
         for elements in ELEMENTS:
             if best <= AGREES:
                 break
-            found = self.run(self.collocation(elements), stretch)
-            best = min(best, _largest(np.abs(found - stretch.v).max(axis=1)[self.x] / self.size[self.x]))
+            found = self.collocate(elements, stretch)
+            best = min(best, _largest((np.abs(found - stretch.v).max(axis=1) / size)[counts]))
         return best
 
 
@@ -174,28 +187,24 @@ def _largest(errors: Floats) -> float:
     return float(np.max(np.where(np.isnan(errors), np.inf, errors), initial=0.0))
 
 
+def _residuals(equations: FlatEquations, stretch: Stretch) -> tuple[Floats, Floats]:
+    """Largest residual of each flat equation on a stretch, and largest size of its terms."""
+    n = len(stretch.t)
+    modes = np.tile(stretch.modes[:, None], (1, n))
+    left, sizes, _ = equations.evaluate.map(n)(stretch.t[None], stretch.v, modes)
+    return np.abs(left.full()).max(axis=1), sizes.full().max(axis=1)
+
+
 def residual(check: Check) -> tuple[float, str]:
     """Largest residual of the flat equations relative to the size of their terms, and the equation with its place."""
-    equations, worst = check.equations, (0.0, "")
+    worst = (0.0, "")
     for stretch in check.stretches:
-        n = len(stretch.t)
-        modes = np.tile(stretch.modes[:, None], (1, n))
-        left, sizes, _ = equations.evaluate.map(n)(stretch.t[None], stretch.v, modes)
-        relative = np.abs(left.full()).max(axis=1) / (sizes.full().max(axis=1) + FLOOR)
+        left, sizes = _residuals(check.equations, stretch)
+        relative = left / (sizes + FLOOR)
         relative = np.where(np.isnan(relative), np.inf, relative)
         k = int(np.argmax(relative))
-        worst = max(worst, (float(relative[k]), equations.places[k]))
+        worst = max(worst, (float(relative[k]), check.equations.places[k]))
     return worst
-
-
-def drift(check: Check) -> float:
-    """Largest difference between the change of a state and the integral of its derivative, relative to its size."""
-    equations = check.equations
-    x, slopes = equations.states, equations.flat.derivative_of[equations.states]
-    changes = [
-        s.v[x, -1] - s.v[x, 0] - (s.t[-1] - s.t[0]) * (s.v[slopes] @ WEIGHTS) for s in check.stretches
-    ]  # fmt: skip
-    return max(_largest(np.abs(change) / check.size[x]) for change in changes)
 
 
 def broken(check: Check) -> list[str]:
