@@ -36,7 +36,7 @@ AGREES = 1e-5
 """Largest difference between two solutions, relative to the size of each variable."""
 FLOOR = 1e-7
 """Terms and variables smaller than this may be what rounding leaves of zero."""
-AMPLIFIED = 1e-6, 1e-3
+AMPLIFIED = 1e-6, 1e-2
 """The same for states and for unknowns, where collocation differentiates: it amplifies rounding."""
 SOLVED = 1e-6
 """Largest residual where Newton's method converged, relative to the size of the terms, at least `AMPLIFIED[1]`."""
