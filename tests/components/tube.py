@@ -20,11 +20,13 @@ def read(name: str) -> tuple[list[str], np.ndarray]:
     return header, values[np.concatenate([[True], np.diff(values[:, 0]) > 0])]
 
 
-def assert_within(name: str, model: ac.Component, engine: Any = "auto", *, still: float = 0.0) -> None:
+def assert_within(
+    name: str, model: ac.Component, engine: Any = "auto", *, still: float = 0.0, rtol: float = 1e-8
+) -> None:
     """All signals of a reference trajectory are within 2e-3 of their range; `still`: range of those that rest."""
     header, values = read(name)
     t = values[:, 0]
-    solution = ac.compile(model).simulate(t1=float(t[-1]), saveat=t, rtol=1e-8, engine=engine)
+    solution = ac.compile(model).simulate(t1=float(t[-1]), saveat=t, rtol=rtol, engine=engine)
     for column, signal in enumerate(header[1:], start=1):
         reference = values[:, column]
         error = np.max(np.abs(np.asarray(solution[signal]) - reference))

@@ -11,7 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from acausal import (
+    PI,
     Connector,
     DeclarationError,
     Equations,
@@ -26,6 +29,7 @@ from acausal import (
     defining,
     derivative_rule,
     dot,
+    floor,
     matrix,
     noevent,
     norm,
@@ -40,6 +44,8 @@ TINY = 1e-15
 """Smallest length that counts as one [m]."""
 PARALLEL = 1e-5
 """Directions with a smaller sine of the angle between them are parallel."""
+ALONG = 1e-12
+"""With a smaller sine of the angle between them, the first axis of a sequence of rotations is along the third."""
 IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
@@ -197,18 +203,38 @@ def rotation_angles(T: Matrix, sequence: Sequence[float], guess: Any) -> Vector:
     """Angles about the axes numbered in `sequence` that give the matrix: the inverse of `axes_rotations`.
 
     Of both solutions, the one whose first angle is nearer to `guess`. The third axis is across the turned second one,
-    which gives the first angle; where the first axis is along the third, the angles are not determined.
+    which gives the first angle; where the first axis is along the third, only the sum or the difference of their
+    angles is determined, and the first one is `guess`.
     """
     first, second, third = map(coordinate_axis, checked_sequence(sequence, all_orientations=True))
     axis = T.transpose() @ third
     a, b = dot(second, axis), dot(cross(first, second), axis)
-    one, other = atan2(a, -b), atan2(-a, b)
+    along = noevent((abs(a) <= ALONG) & (abs(b) <= ALONG))
+    y, x = where(along, sin(guess), a), where(along, cos(guess), -b)
+    one, other = atan2(y, x), atan2(-y, -x)
     phi_1 = noevent(where(abs(one - guess) <= abs(other - guess), one, other))
     rest = T @ axis_rotation(int(sequence[0]), phi_1).transpose()  # about the second axis, then the third
     across = cross(third, second)
     phi_2 = atan2(-dot(rest.transpose() @ third, across), dot(rest.transpose() @ third, third))
     phi_3 = atan2(-dot(rest @ second, across), dot(rest @ second, second))
     return vector(phi_1, phi_2, phi_3)
+
+
+def nearest_angles(T: Matrix, sequence: Sequence[float], guess: Vector) -> Vector:
+    """Angles about the axes numbered in `sequence` that give the matrix: of all solutions, the one nearest to `guess`.
+
+    That is each angle within half a turn of its guess.
+    """
+    one = rotation_angles(T, sequence, guess[0])
+    other = vector(one[0] + PI, (0.0 if sequence[0] == sequence[2] else PI) - one[1], one[2] + PI)
+    first, second = (vector(*map(half_turn, angles - guess)) for angles in (one, other))
+    nearer = noevent(dot(first, first) <= dot(second, second))
+    return guess + vector(*(where(nearer, a, b) for a, b in zip(first, second, strict=True)))
+
+
+def half_turn(angle: Any) -> Any:
+    """The same angle, less whole turns, within half a turn of zero."""
+    return angle - 2 * PI * noevent(floor(angle / (2 * PI) + 0.5))
 
 
 def from_nxy(n_x: Vector, n_y: Vector) -> Matrix:
@@ -242,6 +268,17 @@ def quaternion_rate(Q: Vector, w: Vector) -> Vector:
     a, b, c, d = Q
     x, y, z = w
     return vector(d * x - c * y + b * z, c * x + d * y - a * z, a * y + d * z - b * x, -(a * x + b * y + c * z)) / 2
+
+
+def axes_quaternion(sequence: Sequence[float], angles: Sequence[float]) -> tuple[float, ...]:
+    """Quaternion (its scalar part last) of the rotations of `axes_rotations`, of numbers."""
+    Q = np.array([0.0, 0.0, 0.0, 1.0])
+    for axis, angle in zip(checked_sequence(sequence, all_orientations=False), angles, strict=True):
+        turn = np.zeros(3)
+        turn[axis - 1] = np.sin(angle / 2)
+        vector_part = turn * Q[3] + Q[:3] * np.cos(angle / 2) - np.cross(turn, Q[:3])
+        Q = np.array([*vector_part, Q[3] * np.cos(angle / 2) - turn @ Q[:3]])
+    return tuple(Q.tolist())
 
 
 def rotation_residual(T1: Matrix, T2: Matrix) -> Vector:
