@@ -40,6 +40,18 @@ def yielding(held: Expr, most: Expr | float) -> Expr:
     return GIVE * held / (most + LEAST)
 
 
+def corners(ahead: Expr, back: Expr, highest: Expr, lowest: Expr) -> tuple[Expr, Expr, Expr]:
+    """`sa` at the corner of the characteristic where an element was before, and the two corners as seen from there.
+
+    Args:
+        ahead, back: whether it was sliding forward, or backward; at neither it was stuck, and counts from zero.
+        highest, lowest: `sa` where forward and backward sliding begin.
+    """
+    at = where(ahead, highest, where(back, lowest, 0.0))
+    upper = where(ahead, 0.0, where(back, highest - lowest, highest))
+    return at, upper, where(ahead, lowest - highest, where(back, 0.0, lowest))
+
+
 class StickSlip(Component, partial=True):
     """State machine of dry friction: sliding forward, sliding backward, stuck, or free.
 
@@ -57,16 +69,16 @@ class StickSlip(Component, partial=True):
     startBackward: Discrete = Discrete(doc="whether the relative speed is 0 and backward sliding starts")
     locked: Discrete = Discrete(doc="whether the relative speed is 0 and not sliding")
     mode: Discrete = Discrete(start=UNKNOWN, doc="2 free, 1 forward, 0 stuck, -1 backward, 3 unknown")
+    holds: Variable = Variable(doc="friction torque or force while stuck; subclasses give its unit")
 
     def stick_slip(
-        self, speed: Expr, acceleration: Expr, holds: Expr, peak: Expr, small: Expr, units: tuple[Expr, Expr]
+        self, speed: Expr, acceleration: Expr, peak: Expr, small: Expr, units: tuple[Expr, Expr]
     ) -> Equations:
         """The equations of the state machine.
 
         Args:
             speed, acceleration: of the frictional surfaces, relative to each other.
-            holds: torque or force while stuck.
-            peak: the largest, over its unit.
+            peak: the largest torque or force while stuck, over its unit.
             small: speed near 0, for impulses that stop the motion.
             units: of `sa` as an acceleration and as a torque or force.
         """
@@ -77,11 +89,9 @@ class StickSlip(Component, partial=True):
         held = pre(self.locked) > 0.5  # what comes to rest is held first: sliding on would agree with the laws, too
         begins, returns = ac.initial() & (speed > 0), ac.initial() & (speed < 0)
         went, came = pre(self.startForward) > 0.5, pre(self.startBackward) > 0.5
-        ahead, back = forward | went, backward | came
-        sa = along + where(ahead, peak, where(back, -peak, 0.0))
+        at, upper, lower = corners(forward | went, backward | came, peak, -peak)
+        sa = along + at
         yield self.sa == sa
-        upper = where(ahead, 0.0, where(back, 2 * peak, peak))  # other corners, from there
-        lower = where(ahead, -2 * peak, where(back, 0.0, -peak))
         starts = stuck & self.ahead((held | went) & (along > upper))
         reverses = stuck & self.behind((held | came) & (along < lower))
         yield self.startForward == where(starts | (backward & (speed > small)) | begins, 1.0, 0.0)
@@ -91,7 +101,7 @@ class StickSlip(Component, partial=True):
         moving = along - where(going | (forward & ~coming), upper, lower)
         rate = where(self.locked > 0.5, yielding(sa, peak), where(free, sa, moving))
         yield acceleration == unit_acceleration * rate
-        yield holds == where(self.locked > 0.5, sa * unit_holds, 0.0)
+        yield self.holds == where(self.locked > 0.5, sa * unit_holds, 0.0)
         slides = self.ahead((forward | was_free | going) & (speed > 0))
         slips = self.behind((backward | was_free | coming) & (speed < 0))
         yield self.mode == where(free, FREE, where(slides, FORWARD, where(slips, BACKWARD, STUCK)))
@@ -108,6 +118,10 @@ class StickSlip(Component, partial=True):
         """Sign of the sliding motion, by the mode before this moment."""
         forward = (pre(self.mode) == FORWARD) | (self.startForward > 0.5)
         return where(self.startBackward > 0.5, -1.0, where(forward, 1.0, -1.0))
+
+    def friction(self, sliding: Expr) -> Expr:
+        """Friction torque or force: what holds while locked, nothing while free, else `sliding`."""
+        return where(self.locked > 0.5, self.holds, where(self.free > 0.5, 0.0 * sliding, sliding))
 
 
 REGULARIZATIONS = ("Exp", "Sine", "Linear", "CoSine")

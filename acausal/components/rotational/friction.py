@@ -35,11 +35,7 @@ class PartialFriction(StickSlip, partial=True):
     def equations(self) -> Equations:
         yield from super().equations()
         peak, units = self.tau0_max / self.unitTorque, (self.unitAngularAcceleration, self.unitTorque)
-        yield from self.stick_slip(self.w_relfric, self.a_relfric, self.holds, peak, self.w_small, units)
-
-    def friction(self, sliding: Expr) -> Expr:
-        """Friction torque: what holds while locked, nothing while free, else `sliding`."""
-        return where(self.locked > 0.5, self.holds, where(self.free > 0.5, 0.0 * sliding, sliding))
+        yield from self.stick_slip(self.w_relfric, self.a_relfric, peak, self.w_small, units)
 
 
 class BearingFriction(thermal.PartialConditionalHeatPort, PartialFriction, PartialTwoFlangesAndSupport):

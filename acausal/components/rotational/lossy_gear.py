@@ -8,7 +8,7 @@ import acausal as ac
 from acausal import Discrete, Equations, Expr, Parameter, Variable, der, pre, where
 
 from .. import blocks, thermal
-from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, table_columns, yielding
+from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, corners, table_columns, yielding
 from .interfaces import PartialTwoFlangesAndSupport
 
 
@@ -97,11 +97,9 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
         forward, stuck, backward, held = was == FORWARD, was == STUCK, was == BACKWARD, pre(self.locked) > 0.5
         begins, returns = ac.initial() & (self.w_a > 0), ac.initial() & (self.w_a < 0)
         goes_on, comes_on = pre(self.startForward) > 0.5, pre(self.startBackward) > 0.5
-        ahead, back = forward | goes_on, backward | comes_on
-        sa = along + where(ahead, highest, where(back, lowest, 0.0))
+        at, upper, lower = corners(forward | goes_on, backward | comes_on, highest, lowest)
+        sa = along + at
         yield self.sa == sa
-        upper = where(ahead, 0.0, where(back, highest - lowest, highest))  # other corners, from there
-        lower = where(ahead, lowest - highest, where(back, 0.0, lowest))
         yield self.startForward == where((stuck & (held | goes_on) & (along > upper)) | begins, 1.0, 0.0)
         yield self.startBackward == where((stuck & (held | comes_on) & (along < lower)) | returns, 1.0, 0.0)
         going, coming = self.startForward > 0.5, self.startBackward > 0.5

@@ -35,11 +35,7 @@ class PartialFriction(StickSlip, partial=True):
     def equations(self) -> Equations:
         yield from super().equations()
         peak, units = self.f0_max / self.unitForce, (self.unitAcceleration, self.unitForce)
-        yield from self.stick_slip(self.v_relfric, self.a_relfric, self.holds, peak, self.v_small, units)
-
-    def friction(self, sliding: Expr) -> Expr:
-        """Friction force: what holds while locked, nothing while free, else `sliding`."""
-        return where(self.locked > 0.5, self.holds, where(self.free > 0.5, 0.0 * sliding, sliding))
+        yield from self.stick_slip(self.v_relfric, self.a_relfric, peak, self.v_small, units)
 
 
 class SupportFriction(thermal.PartialConditionalHeatPort, PartialFriction, PartialTwoFlangesAndSupport):
