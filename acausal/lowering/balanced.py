@@ -7,6 +7,16 @@ from typing import Any
 import numpy as np
 
 
+def row_scale(a: Any, jnp: Any = np) -> Any:
+    """Factors (..., n, 1) of the rows of a (..., n, n) that make their absolute sums 1; constants to derivatives."""
+    size = jnp.sum(jnp.abs(a), axis=-1, keepdims=True)
+    if jnp is not np:
+        import jax
+
+        size = jax.lax.stop_gradient(size)
+    return 1 / jnp.where(size > 0, size, 1.0)
+
+
 def solve_balanced(a: Any, b: Any, jnp: Any = np) -> Any:
     """Solution of ``a x = b``, as accurate as if each entry of `a` and `b` were known to rounding.
 
@@ -19,12 +29,7 @@ def solve_balanced(a: Any, b: Any, jnp: Any = np) -> Any:
         b: (..., n) or (..., n, k), like `a` in what comes first.
         jnp: NumPy or `jax.numpy`.
     """
-    size = jnp.sum(jnp.abs(a), axis=-1, keepdims=True)
-    if jnp is not np:
-        import jax
-
-        size = jax.lax.stop_gradient(size)
-    scale = 1 / jnp.where(size > 0, size, 1.0)
+    scale = row_scale(a, jnp)
     right = b * scale if b.ndim == a.ndim else b[..., None] * scale
     matrix = a * scale
     x = jnp.linalg.solve(matrix, right)

@@ -18,7 +18,7 @@ from ..passes.schedule import Group
 from .held import Held, regrouped
 from .initial import InitialProblem, connected
 from .numeric import NumericRun
-from .sparsity import condition_pattern
+from .sparsity import condition_groups, condition_pattern
 
 LARGEST = 400
 """With more states and algebraic unknowns than this, Jacobians are sparse."""
@@ -111,9 +111,7 @@ def _plan_of(problem: InitialProblem, ids: Ints) -> _Plan:
     key = ids.tobytes()
     if key not in problem.plans:
         low = problem.lowered
-        extra = [*low.schedule.invariants, *problem.families]
-        needed = np.concatenate([ids, *(f.var_rows.ravel() for f in extra)])
-        groups = regrouped(low.schedule, low.closure(needed, residuals=True), ids, low.n_ids)
+        groups = regrouped(low.schedule, condition_groups(low, ids, problem.families), ids, low.n_ids)
         pattern = condition_pattern(low, ids, problem.families, groups, ids)
         may_move = connected(pattern, np.arange(pattern.shape[0]) >= low.n_w)[: low.n_x]
         problem.plans[key] = _Plan(groups, pattern, np.asarray(color_columns(pattern), np.int64), may_move)

@@ -50,14 +50,13 @@ def solve_numeric(
         if not low.n_w:
             return given.x, given.w, np.zeros(0)
         given.fixed[:] = True
-    evaluate, may_move = compiled, np.ones(low.n_x, bool)
-    if evaluate is None:
+    if compiled is None:
         evaluate = Conditions(problem, t0, p, given.ids, given.wanted)
         if evaluate.too_many:
             return None
         may_move = evaluate.may_move
     else:
-        evaluate = _compiled(evaluate, low.n_w + low.n_g, given.wanted)
+        evaluate, may_move = _compiled(compiled, low.n_w + low.n_g, given.wanted), np.ones(low.n_x, bool)
     z = np.concatenate([given.x, given.w])
     nominal = np.concatenate([low.x_nominal, low.w_nominal])
     ease = np.concatenate([problem.ease, EASE_ALGEBRAIC * low.w_nominal])

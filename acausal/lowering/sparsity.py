@@ -24,6 +24,12 @@ def jacobian_pattern(lowered: Lowered, groups: list[int]) -> Any:
     return _stack([found.of_values(lowered.dx_ids), found.of_residuals()])
 
 
+def condition_groups(lowered: Lowered, ids: Ints, families: Sequence[Family]) -> list[int]:
+    """Numbers of the groups that residuals, invariants, variables `ids` and residuals of `families` need."""
+    extra = [*lowered.schedule.invariants, *families]
+    return lowered.closure(np.concatenate([ids, *(f.var_rows.ravel() for f in extra)]), residuals=True)
+
+
 def condition_pattern(
     lowered: Lowered, ids: Ints = NO_IDS, families: Sequence[Family] = (), groups: Iterable[Group] | None = None,
     held: Ints = NO_IDS,
@@ -32,14 +38,11 @@ def condition_pattern(
 
     Of the `groups` of the schedule, all that are needed by default; with the variables `held` given.
     """
-    extra = [*lowered.schedule.invariants, *families]
     if groups is None:
-        needed = np.concatenate([ids, *(f.var_rows.ravel() for f in extra)])
-        groups = [lowered.schedule.groups[k] for k in lowered.closure(needed, residuals=True)]
+        groups = [lowered.schedule.groups[k] for k in condition_groups(lowered, ids, families)]
     found = Dependence(lowered, groups, held)
-    n = len(lowered.schedule.invariants)
-    rows = [found.of_rows(f.var_rows) for f in extra]
-    return _stack([found.of_residuals(), *rows[:n], found.of_values(ids), *rows[n:]])
+    invariants, extra = ([found.of_rows(f.var_rows) for f in of] for of in (lowered.schedule.invariants, families))
+    return _stack([found.of_residuals(), *invariants, found.of_values(ids), *extra])
 
 
 class Dependence:

@@ -11,6 +11,8 @@ import jax
 import jax.numpy as jnp
 from jax import Array
 
+from acausal.lowering.balanced import row_scale
+
 Field = Callable[[Array, Array], Array]
 
 
@@ -83,8 +85,7 @@ class DenseLU(AbstractLinearSolver):
 
     def factor(self, diagonal: Array, jacobian: Array, kept: Any = None) -> tuple[tuple[Array, Array, Array], Any]:
         matrix = jnp.diag(diagonal) - jacobian
-        size = jax.lax.stop_gradient(jnp.sum(jnp.abs(matrix), axis=1))
-        scale = 1 / jnp.where(size == 0, 1, size)
+        scale = row_scale(matrix, jnp)[:, 0]
         lu, _, permutation = jax.lax.linalg.lu(matrix * scale[:, None])
         return (lu, permutation, scale), kept
 

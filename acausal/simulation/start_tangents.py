@@ -9,11 +9,9 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import InitializationError
-from acausal.language.template import Ints
 from acausal.lowering.conditions import Conditions
-from acausal.lowering.initial import EASE_ALGEBRAIC, given_starts
+from acausal.lowering.initial import EASE_ALGEBRAIC, GivenStarts, given_starts
 from acausal.lowering.initial_numeric import least_change
-from acausal.lowering.numeric import NumericRun
 
 from .event_iteration import left_starts
 from .native_library import Floats, NativeLibrary
@@ -74,7 +72,7 @@ class StartTangents:
                     dz[position[index]] = 0.0
                     dz[position[index], k] = sign_of
         own = self.library is not None and own_conditions(problem, overrides)
-        j, rate = self._conditions(t0, started, dz, dp, None if own else ids, d_wanted)
+        j, rate = self._conditions(t0, started, dz, dp, None if own else given_at, d_wanted)
         n_w = low.n_w
         fixed = given_at.fixed if given_at.conditions else np.ones(low.n_x, bool)
         free = np.concatenate([np.flatnonzero(~fixed), low.n_x + np.arange(n_w)])
@@ -96,26 +94,22 @@ class StartTangents:
         return d_starts, starts
 
     def _conditions(
-        self, t0: float, started: Started, dz: Floats, dp: Floats, ids: Ints | None, d_wanted: Floats
+        self, t0: float, started: Started, dz: Floats, dp: Floats, given: GivenStarts | None, d_wanted: Floats
     ) -> tuple[Any, Floats]:
         """Jacobian of the start's conditions with respect to z, and their tangents (n_i, lanes).
 
-        `ids` are the variables whose start is a condition, where these are not those that were compiled.
+        `given` are the start values that are conditions, where these are not those that were compiled.
         """
         problem = self.system.initial
         low = problem.lowered
-        if ids is None:
+        if given is None:
             library = self.library
             assert library is not None
             slope = library.conditions(started.p, t0, started.z0)[1]
             rate = library.conditions_tangent(started.p, dp, t0, started.z0, dz)
             rate[low.n_w + low.n_g : low.n_w + low.n_g + len(d_wanted)] -= d_wanted
             return slope, rate
-        wanted = np.zeros(0)
-        if len(ids):
-            x, w = started.z0[: low.n_x], started.z0[low.n_x :]
-            wanted = NumericRun(low, t0, x, w, started.p, np.zeros(0, np.int64)).value[ids]
-        conditions = Conditions(problem, t0, started.p, ids, wanted)
+        conditions = Conditions(problem, t0, started.p, given.ids, given.wanted)
         if conditions.too_many:
             raise InitializationError(
                 "the start of this model is too large for the derivatives of this run; events=False and "
