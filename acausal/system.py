@@ -108,7 +108,7 @@ class System:
     @cached_property
     def divided(self) -> tuple[Group, ...]:
         """Groups of equations that give zero for an unknown, if something is not zero."""
-        return tuple(group for group in self.stages.schedule.groups if group.kernel.divisors)
+        return tuple(group for group in self.stages.schedule.groups if group.kernel.divisor is not None)
 
     @cached_property
     def states(self) -> tuple[str, ...]:
@@ -261,7 +261,7 @@ class System:
         """Further fixed starts: reduced variable index to value."""
         representative, sign = self.observed_ids
         overrides: dict[int, Any] = {}
-        names: dict[int, str] = {}
+        written: dict[int, tuple[str, int]] = {}
         for name, value in (initial or {}).items():
             ids = self.index_of(name)
             values = xp.ravel(xp.broadcast_to(xp.asarray(value, float), np.shape(ids)))
@@ -270,21 +270,17 @@ class System:
                     raise InitializationError(
                         f"`{name}` is always zero in this model and cannot be given a start value"
                     )
-                number, given = int(representative[index]), values[k] * int(sign[index])
-                other = names.setdefault(number, name)
+                number, own = int(representative[index]), int(sign[index])
+                given = values[k] * own
+                other, its = written.setdefault(number, (name, own))
                 if other != name and is_concrete((given, overrides[number])) and given != overrides[number]:
-                    related = "opposite" if self._opposite(other, name) else "equal"
+                    related = "equal" if own == its else "opposite"
                     raise InitializationError(
                         f"simulate(initial=...) gives `{other}` and `{name}` values that are not {related}, as they "
                         "are in this model: give one of them"
                     )
                 overrides[number] = given
         return overrides
-
-    def _opposite(self, a: str, b: str) -> bool:
-        """Whether two aliases have opposite signs."""
-        sign = self.observed_ids[1]
-        return bool((sign[np.ravel(self.index_of(a))[0]] * sign[np.ravel(self.index_of(b))[0]]) < 0)
 
     def check_initial(
         self, x0: Any, w0: Any, p: Any, left: Any, t0: Any = 0.0, initial: Mapping[str, Any] | None = None

@@ -29,21 +29,22 @@ def check_determined(system: System, p: Any) -> None:
     schedule = system.stages.schedule
     flat = schedule.reduced.flat
     for group in system.divided:
+        divisor = group.kernel.divisor
+        assert divisor is not None
         values = np.asarray(p, float)[group.par_rows]
-        for divisor in group.kernel.divisors:
-            terms = divisor.args if divisor.op == "add" else (divisor,)
-            with np.errstate(all="ignore"):
-                parts = evaluate(terms, lambda leaf, values=values: values[:, leaf.value], np)
-            size = sum(map(np.abs, parts)) * ROUNDING if len(parts) > 1 else 0.0
-            fixed = (group.par_rows < flat.n_par).all(axis=1)  # inputs and modes change in the run
-            lost = np.flatnonzero(fixed & (np.abs(sum(parts)) <= size))
-            if not len(lost):
-                continue
-            block = int(lost[0])
-            rows = [schedule.reduced.rows.locate(int(row)) for row in group.equations[block, :SHOWN]]
-            unknowns = ", ".join(f"`{schedule.reduced.name(int(v))}`" for v in group.unknowns[block, :SHOWN])
-            lines = "\n".join(f"    {flat.equation_line(*row)}" for row in rows)
-            raise InitializationError(
-                f"With the parameters of this run these equations do not determine {unknowns}: any value solves them.\n"
-                f"{lines}\nChange a parameter that they hold, or add what is to determine the unknowns."
-            )
+        terms = divisor.args if divisor.op == "add" else (divisor,)
+        with np.errstate(all="ignore"):
+            parts = evaluate(terms, lambda leaf, values=values: values[:, leaf.value], np)
+        size = sum(map(np.abs, parts)) * ROUNDING if len(parts) > 1 else 0.0
+        fixed = (group.par_rows < flat.n_par).all(axis=1)  # inputs and modes change in the run
+        lost = np.flatnonzero(fixed & (np.abs(sum(parts)) <= size))
+        if not len(lost):
+            continue
+        block = int(lost[0])
+        rows = [schedule.reduced.rows.locate(int(row)) for row in group.equations[block, :SHOWN]]
+        unknowns = ", ".join(f"`{schedule.reduced.name(int(v))}`" for v in group.unknowns[block, :SHOWN])
+        lines = "\n".join(f"    {flat.equation_line(*row)}" for row in rows)
+        raise InitializationError(
+            f"With the parameters of this run these equations do not determine {unknowns}: any value solves them.\n"
+            f"{lines}\nChange a parameter that they hold, or add what is to determine the unknowns."
+        )

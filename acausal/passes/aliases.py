@@ -84,12 +84,9 @@ def eliminate_aliases(flat: FlatModel) -> Reduced:
     edges = _Edges(flat.alias_a, flat.alias_b, flat.alias_sign, flat.alias_source, flat.alias_ordinal)
     edges = edges.extend(flat.zero, flat.zero, np.zeros_like(flat.zero), flat.zero_source, flat.zero_ordinal)
     rank = _rank(flat)
-    families = merge(flat.families)
+    families, found = _detect(merge(flat.families))
     keep = (flat.derivative_of >= 0) | (flat.parent >= 0)
     while True:
-        families, repeated = twins(families)
-        families, found = _detect(families)
-        found = [*found, *repeated]
         for family, sign in found:
             zero = sign == 0
             b = family.var_rows[:, 0 if zero else 1]
@@ -99,8 +96,8 @@ def eliminate_aliases(flat: FlatModel) -> Reduced:
         sets, order = _sets(flat.n_total, edges, keep, rank)
         representative = np.asarray(sets.representative)
         sign = np.where(np.asarray(sets.is_zero), 0, np.asarray(sets.sign)).astype(np.int64)
-        families = specialize(families, representative, sign)
-        if not any(_alias_sign(f.residual) is not None for f in families) and not twins(families)[1]:
+        families, found = _detect(specialize(families, representative, sign))
+        if not found:
             break
     closing = order[np.asarray(sets.redundant_edges, np.int64)]
     redundant = [_redundant(flat, edges, int(e), closing) for e in closing]
@@ -174,6 +171,8 @@ def _alias_sign(residual: Expr) -> int | None:
 
 
 def _detect(families: list[Family]) -> tuple[list[Family], list[tuple[Family, int]]]:
+    """The equations that are no equalities, and equalities with the sign between their sides."""
+    families, repeated = twins(families)
     rest: list[Family] = []
     found: list[tuple[Family, int]] = []
     for family in families:
@@ -182,7 +181,7 @@ def _detect(families: list[Family]) -> tuple[list[Family], list[tuple[Family, in
             rest.append(family)
         else:
             found.append((family, sign))
-    return rest, found
+    return rest, [*found, *repeated]
 
 
 def _kept(edges: _Edges, pairs: Ints) -> list[Family]:

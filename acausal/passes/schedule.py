@@ -38,7 +38,7 @@ class Kernel:
         tears: unknowns that are found first, by a linear system or by iteration.
         residuals: as many equations as tears, for iteration.
         matrix, rhs: the linear system for the tears, where the residuals are affine in them.
-        divisors: factors, made of parameters, of unknowns that are zero for that they are not (`undetermined`).
+        divisor: a factor, made of parameters, of unknowns that are zero if it is not (`undetermined`).
     """
 
     size: int
@@ -47,7 +47,7 @@ class Kernel:
     residuals: tuple[Expr, ...] = ()
     matrix: tuple[tuple[Expr, ...], ...] = ()
     rhs: tuple[Expr, ...] = ()
-    divisors: tuple[Expr, ...] = ()
+    divisor: Expr | None = None
 
     @property
     def iterates(self) -> bool:
@@ -172,8 +172,8 @@ def _single_kernel(residual: Expr, slot: int, others: list[int]) -> Kernel:
     form = substitute(residual, renumber)
     isolated = isolate(form, var(0))
     if isolated.solution is not None:
-        divisors = _dividing((isolated.solution,), isolated.coefficient)
-        return Kernel(1, ((0, isolated.solution),), divisors=divisors)
+        divisor = _dividing((isolated.solution,), isolated.coefficient)
+        return Kernel(1, ((0, isolated.solution),), divisor=divisor)
     return Kernel(1, (), (0,), (form,))
 
 
@@ -279,24 +279,24 @@ def finish_kernel(m: int, steps: list[tuple[int, Expr]], tears: tuple[int, ...],
     rest = [neg(substitute(r, {var(t): ZERO for t in tears})) for r in closed]
     if len(tears) > SYMBOLIC:
         return Kernel(m, tuple(steps), tears, (), tuple(map(tuple, matrix)), tuple(rest))
-    found = cramer(matrix, rest)
-    return Kernel(m, (*zip(tears, found, strict=True), *steps), divisors=_dividing(found, _determinant(matrix)))
+    found, determinant = cramer(matrix, rest)
+    return Kernel(m, (*zip(tears, found, strict=True), *steps), divisor=_dividing(found, determinant))
 
 
-def _dividing(solutions: Sequence[Expr], divisor: Expr) -> tuple[Expr, ...]:
+def _dividing(solutions: Sequence[Expr], divisor: Expr) -> Expr | None:
     """The divisor of the solutions, where one of them is zero without it and parameters decide whether it is zero."""
     hidden = any(solution is ZERO for solution in solutions)
-    return (divisor,) if hidden and {leaf.op for leaf in leaves(divisor)} == {"par"} else ()
+    return divisor if hidden and {leaf.op for leaf in leaves(divisor)} == {"par"} else None
 
 
-def cramer(matrix: list[list[Expr]], rhs: list[Expr]) -> list[Expr]:
-    """Solution of a linear system of up to three unknowns."""
+def cramer(matrix: list[list[Expr]], rhs: list[Expr]) -> tuple[list[Expr], Expr]:
+    """Solution of a linear system of up to three unknowns, and its determinant."""
     determinant = _determinant(matrix)
     out: list[Expr] = []
     for j in range(len(rhs)):
         replaced = [[rhs[i] if k == j else entry for k, entry in enumerate(line)] for i, line in enumerate(matrix)]
         out.append(div(_determinant(replaced), determinant))
-    return out
+    return out, determinant
 
 
 def _determinant(a: list[list[Expr]]) -> Expr:

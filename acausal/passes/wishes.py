@@ -68,6 +68,8 @@ def _reached(n: int, starts: Ints, from_: Ints, to: Ints) -> Bools:
 
 def _chained(index: IndexReduced, wishes: Ints) -> Bools:
     """Which of the rows `wishes` are related to more than `MOST` of them by variables that equations share."""
+    if len(wishes) <= MOST:
+        return np.zeros(len(wishes), bool)
     m, n = len(index.rows), len(index.unknown)
     graph = index.rows.incidence(n, np.ones(n, bool))
     shared = coo_matrix((np.ones(len(graph.indices)), (graph.edge_rows(), m + graph.indices)), shape=(m + n, m + n))
