@@ -162,10 +162,15 @@ def _given(system: System, initial: Mapping[str, Any], values: np.ndarray) -> di
     """Reduced variables that `initial` gives a value, in order, with what there is to say of each."""
     found: dict[int, str] = {}
     for v, wanted in system._overrides(initial, np).items():
-        got = f", but the other conditions give {values[v]:.6g}" if v < len(values) and np.isfinite(values[v]) else ""
         name = system.stages.flat.name(v)
-        found[v] = f"`{name}` has the value {float(wanted):.6g} from simulate(initial={{...}}){got}"
+        found[v] = f"`{name}` has the value {float(wanted):.6g} from simulate(initial={{...}}){_got(v, values)}"
     return found
+
+
+def _got(v: int, values: np.ndarray) -> str:
+    """What the other conditions make of a variable that has a value given, if that is finite."""
+    finite = v < len(values) and np.isfinite(values[v])
+    return f", but the other conditions give {values[v]:.6g}" if finite else ""
 
 
 def _owner(name: str) -> str:
@@ -194,6 +199,6 @@ def _determining(schedule: Schedule, v: int) -> str:
 def _fixed(flat: FlatModel, v: int, starts: np.ndarray, values: np.ndarray) -> str:
     """A fixed start value that is an equation of the initialization."""
     wanted = f" {starts[v]:.6g}" if v < len(starts) and np.isfinite(starts[v]) else ""
-    got = f", but the other conditions give {values[v]:.6g}" if v < len(values) and np.isfinite(values[v]) else ""
     places = declared(flat, [_owner(flat.name(v))])
-    return f"`{flat.name(v)}` has the fixed start value{wanted}{got}" + (f"  {places[0].strip()}" if places else "")
+    place = f"  {places[0].strip()}" if places else ""
+    return f"`{flat.name(v)}` has the fixed start value{wanted}{_got(v, values)}{place}"

@@ -113,6 +113,14 @@ def _fit(a: Ints, b: Ints, item: Connect, origin: Origin) -> tuple[Ints, Ints]:
     return a.ravel(), b.ravel()
 
 
+def _sets(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
+    """The nodes that edges ``a - b`` join, in order, the set that each is in, and where each of `a` is among them."""
+    nodes, inverse = np.unique(np.concatenate([a, b]), return_inverse=True)
+    ia, ib = inverse[: len(a)], inverse[len(a) :]
+    graph = coo_matrix((np.ones(len(a), np.int8), (ia, ib)), shape=(len(nodes), len(nodes)))
+    return nodes, connected_components(graph, directed=False)[1], ia
+
+
 def check_signals(edges: list[SignalEdges], root: Template, sources: list[Source]) -> None:
     """A signal comes from one side at most.
 
@@ -124,10 +132,7 @@ def check_signals(edges: list[SignalEdges], root: Template, sources: list[Source
         return
     a, b = np.concatenate([e.a for e in edges]), np.concatenate([e.b for e in edges])
     statement = np.concatenate([np.full(len(e.giving), e.source) for e in edges])
-    nodes, inverse = np.unique(np.concatenate([a, b]), return_inverse=True)
-    ia, ib = inverse[: len(a)], inverse[len(a) :]
-    n = len(nodes)
-    _, label = connected_components(coo_matrix((np.ones(len(a), np.int8), (ia, ib)), shape=(n, n)), directed=False)
+    nodes, label, _ = _sets(a, b)
     givers, first = np.unique(giving, return_index=True)
     its_set = label[np.searchsorted(nodes, givers)]
     crowded = np.flatnonzero(np.bincount(its_set, minlength=1) > 1)
@@ -207,10 +212,8 @@ def _solve_interface(
     b = np.concatenate([np.zeros(0, np.int64), *(e[1] for e in edges)])
     edge_source = np.concatenate([np.zeros(0, np.int64), *(np.full(len(e[0]), e[2]) for e in edges)])
     edge_ordinal = np.concatenate([np.zeros(0, np.int64), *(np.arange(len(e[0])) for e in edges)])
-    nodes, inverse = np.unique(np.concatenate([a, b]), return_inverse=True)
-    ia, ib = inverse[: len(a)], inverse[len(a) :]
+    nodes, label, ia = _sets(a, b)
     n = len(nodes)
-    _, label = connected_components(coo_matrix((np.ones(len(a), np.int8), (ia, ib)), shape=(n, n)), directed=False)
     order = np.lexsort((nodes, label))
     nodes, label = nodes[order], label[order]
     # an edge of each set, to name where the set was written
