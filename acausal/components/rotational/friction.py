@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import acausal as ac
-from acausal import Discrete, Equations, Expr, Input, Parameter, Variable, der, pre, where
+from acausal import Discrete, Equations, Input, Parameter, Variable, der, pre, where
 
 from .. import blocks, thermal
 from ..friction import StickSlip, table_columns, yielding
