@@ -182,6 +182,10 @@ class Elaborator:
             self._drop(name)
             self._bind(cls, name, value.value, is_start=True)
             out.start[k] = np.nan
+        elif isinstance(value.value, (list, tuple, np.ndarray)) and np.ndim(value.value):
+            raise DeclarationError(
+                f"`{self._where((name,))}` is one variable, but its start was given {np.size(value.value)} values"
+            )
         elif value.value is not None:
             self._drop(name)
             out.start[k] = value.value

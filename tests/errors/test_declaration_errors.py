@@ -156,6 +156,15 @@ CASES = {
         """,
         ["`r.R` is one parameter but was given 2 values", "Array(component, n, R=[...])"],
     ),
+    "a list as the start of one variable": (
+        """
+        class M(Component):
+            c: Capacitor = Capacitor(v=start((0.0, 0.0, 0.0), fixed=True))
+
+        ac.compile(M())
+        """,
+        ["`c.v` is one variable, but its start was given 3 values"],
+    ),
     "values of an array for a field that is not there": (
         """
         class M(Component):
