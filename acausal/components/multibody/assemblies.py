@@ -132,7 +132,7 @@ class PartialFromUniversal(PartialAssembly, partial=True):
     rRod1_ia: Vector = Vector(
         Parameter(unit="m", doc="from frame_ia to the ball joint in the middle, resolved in frame_ia"), (1.0, 0.0, 0.0)
     )
-    rod1: UniversalSpherical = UniversalSpherical(n1_a=n1_a, rRod_ia=rRod1_ia, kinematicConstraint=False)
+    rod1: UniversalSpherical = UniversalSpherical(n1_a=n1_a, rRod_ia=rRod1_ia, constrained=False)
 
     def first_rod(self) -> UniversalSpherical:
         return self.rod1
@@ -155,7 +155,7 @@ class PartialFromSpherical(PartialAssembly, partial=True):
         Parameter(unit="m", doc="from frame_ib to the ball joint in the middle, resolved in frame_ib"), (1.0, 0.0, 0.0)
     )
     rod1: SphericalSpherical = SphericalSpherical(
-        rodLength=rod1Length, m=rod1Mass, massive=structural("massive"), kinematicConstraint=False
+        rodLength=rod1Length, m=rod1Mass, massive=structural("massive"), constrained=False
     )
 
     @classmethod

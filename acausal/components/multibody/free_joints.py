@@ -219,8 +219,8 @@ class SphericalSpherical(PartialTwoFrames, Grounded):
     """Rod of constant length with a ball joint at each end, and (where `m` is given) a point mass in its middle.
 
     ``|r_b - r_a| = rodLength``; `f_rod` is the force along the rod, positive on frame_a when directed to frame_b. With
-    `computeRodLength`, the length follows from the start. (`kinematicConstraint` is for the assemblies, which see to
-    the length.)
+    `computeRodLength`, the length follows from the start. (`constrained` is for the assemblies, which see to the
+    length.)
 
     Source: Modelica.Mechanics.MultiBody.Joints.SphericalSpherical.
 
@@ -233,7 +233,7 @@ class SphericalSpherical(PartialTwoFrames, Grounded):
 
     massive: bool = False
     computeRodLength: bool = False
-    kinematicConstraint: bool = True
+    constrained: bool = True
     rodLength: Parameter = Parameter(1.0, unit="m", min=TINY, doc="distance of frame_b from frame_a")
     m: Parameter = Parameter(0.0, unit="kg", min=0.0, doc="mass in the middle of the rod")
     length: Variable = Variable(unit="m", start=rodLength, doc="length of the rod")
@@ -254,7 +254,7 @@ class SphericalSpherical(PartialTwoFrames, Grounded):
         yield (der(self.length) if self.computeRodLength else self.length - self.rodLength) == 0
         yield self.rRod_0 == b.r_0 - a.r_0
         yield self.eRod_a == resolve2(a.R, self.rRod_0) / self.length
-        if self.kinematicConstraint:
+        if self.constrained:
             yield dot(self.rRod_0, self.rRod_0) == self.length**2
         yield a.t == ZEROS
         yield b.t == ZEROS

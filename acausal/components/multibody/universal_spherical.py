@@ -84,7 +84,7 @@ class UniversalSpherical(PartialUniversalRod):
     carries frame_ia, whose origin is that of frame_a: `rRod_ia` is the vector from there to frame_b, resolved in
     frame_ia, which is parallel to frame_a where the rod points along that vector. `f_rod` is the force along the rod,
     positive on frame_a when directed to frame_b. With `computeRodLength`, the length follows from the start.
-    (`kinematicConstraint` is for the assemblies, which see to the length.)
+    (`constrained` is for the assemblies, which see to the length.)
 
     >>> bob = PointMass(m=3.0, r_0=start((0.0, -2.0, 0.0), fixed=True))
     >>> rod = UniversalSpherical(n1_a=(1.0, 0.0, 0.0), rRod_ia=(0.0, -1.0, 0.0), computeRodLength=True)
@@ -98,7 +98,7 @@ class UniversalSpherical(PartialUniversalRod):
     """
 
     computeRodLength: bool = False
-    kinematicConstraint: bool = True
+    constrained: bool = True
     rRod_ia: Vector = Vector(Parameter(unit="m", doc="from frame_ia to frame_b, resolved in frame_ia"), (1.0, 0.0, 0.0))
     rodLength: Parameter = Parameter(norm(rRod_ia), unit="m", min=TINY, doc="length, unless it is computed")
     slant: Parameter = Parameter(
@@ -114,7 +114,7 @@ class UniversalSpherical(PartialUniversalRod):
         yield from super().equations()
         a, b, ia = self.frame_a, self.frame_b, self.frame_ia
         yield (der(self.length) if self.computeRodLength else self.length - self.rodLength) == 0
-        if self.kinematicConstraint:
+        if self.constrained:
             yield dot(self.rRod_0, self.rRod_0) == self.length**2
         # forces and torques on the rod, resolved in frame_a
         R_rel, f_b = self.rotation(), self.force_at_end(ia.t)
