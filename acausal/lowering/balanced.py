@@ -35,3 +35,17 @@ def solve_balanced(a: Any, b: Any, jnp: Any = np) -> Any:
     x = jnp.linalg.solve(matrix, right)
     x = x + jnp.linalg.solve(matrix, right - matrix @ x)
     return x if b.ndim == a.ndim else x[..., 0]
+
+
+def solve_any(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """`solve_balanced`; of the systems that are singular, the smallest of the solutions that come closest.
+
+    Guesses may make a system singular that the root of what is iterated does not: a rod without length has no
+    direction. With a finite answer the iteration goes on.
+    """
+    try:
+        return solve_balanced(a, b)
+    except np.linalg.LinAlgError:
+        if a.ndim > 2:
+            return np.stack([solve_any(one, right) for one, right in zip(a, b, strict=True)])
+        return np.linalg.pinv(a) @ b

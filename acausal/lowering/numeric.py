@@ -16,7 +16,7 @@ from ..language.template import Floats, Ints
 from ..symbolic.expr import Expr
 from ..symbolic.operators import OPERATORS
 from ..symbolic.traverse import apply, evaluate, postorder_missing
-from .balanced import solve_balanced
+from .balanced import solve_any
 from .held import Held
 
 if TYPE_CHECKING:
@@ -140,8 +140,8 @@ class NumericRun:
         slope = np.stack([np.broadcast_to(zero if g is None else g, zero.shape) for _, g in entries], axis=1)
         a, b = value[:, : k * k].reshape(n, k, k), value[:, k * k :]
         da, db = slope[:, : k * k].reshape(n, k, k, self.n_y), slope[:, k * k :]
-        solution = solve_balanced(a, b)
-        gradient = solve_balanced(a, db - np.einsum("nijy,nj->niy", da, solution))
+        solution = solve_any(a, b)
+        gradient = solve_any(a, db - np.einsum("nijy,nj->niy", da, solution))
         for i, u in enumerate(kernel.tears):
             self._put(group.var_rows[:, u], solution[:, i], gradient[:, i])
 

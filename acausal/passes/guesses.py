@@ -1,9 +1,9 @@
-"""Guesses for what is iterated on, from the start values of other variables.
+"""Guesses for states and for what is iterated on, from the start values of other variables.
 
 A model says roughly where a mechanism is by start values of the coordinates that come to mind (a slider's position),
-while the compiler iterates on others (a rod's direction). Start values are carried over: an equation in which all
-variables but one have a value gives a value for that one. Values are those at the default parameters; they decide
-which of several solutions is found, not what it is.
+while the compiler iterates on others (a rod's direction) and integrates others (its middle). Start values are carried
+over: an equation in which all variables but one have a value gives a value for that one. Values are those at the
+default parameters; they decide which of several solutions is found, not what it is.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ LARGEST = 5000
 
 
 def infer_guesses(schedule: Schedule, aliases: Reduced, parameters: Floats, starts: Floats) -> None:
-    """Give the algebraic unknowns without start value one, where it follows from others; in place.
+    """Give states and algebraic unknowns without start value one, where it follows from others; in place.
 
     Args:
         schedule: the sorted equations; `flat.start` of its model is completed.
@@ -36,7 +36,7 @@ def infer_guesses(schedule: Schedule, aliases: Reduced, parameters: Floats, star
     reduced = schedule.reduced
     flat = reduced.flat
     known = _known(aliases, starts, len(reduced.unknown))
-    wanted = [int(v) for v in schedule.tears if np.isnan(known[v])]
+    wanted = [int(v) for v in (*schedule.tears, *schedule.states) if v < len(known) and np.isnan(known[v])]
     if not wanted or len(reduced.rows) > LARGEST or np.isnan(known).all():
         return
     _carry_over(reduced, known, parameters)

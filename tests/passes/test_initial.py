@@ -306,3 +306,54 @@ def test_the_start_sees_an_input_that_is_a_function() -> None:
         return system.simulate(2.5, t0=2.0, inputs={"u": lambda t: a * t}, saveat=3, engine="diffrax")["x"][0]
 
     assert jax.jit(first)(1.5) == pytest.approx(3.0, abs=1e-12)
+
+
+class Middle(Component):
+    """The middle `m` of a rod from 0 to x is the state; nothing determines `f` and `g` where x is zero."""
+
+    x: Variable = Variable(start=-1.0)
+    m: Variable = Variable()
+    f: Variable = Variable()
+    g: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield self.x == 2 * self.m
+        yield der(self.m) == -self.m * self.f
+        yield self.x * self.f + self.g == 3
+        yield self.x * self.f - self.g == 1
+
+
+class Long(Middle):
+    """Its length is 2."""
+
+    def initial_equations(self) -> Equations:
+        yield self.x * self.x == 4
+
+
+class Right(Middle):
+    """It ends at 2."""
+
+    def initial_equations(self) -> Equations:
+        yield self.x == 2
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_guesses_are_carried_over_to_states(sign: float, engine: Any) -> None:
+    solution = ac.compile(Long(x=ac.start(sign))).simulate(1.0, engine=engine, saveat=3)
+    assert solution["m"][0] == pytest.approx(sign, abs=1e-12)
+    assert solution["f"][0] == pytest.approx(sign, abs=1e-12)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_a_guess_where_a_linear_system_is_singular_is_left(engine: Any) -> None:
+    solution = ac.compile(Right(x=ac.start(0.0))).simulate(1.0, engine=engine, saveat=3)
+    assert solution["m"][0] == pytest.approx(1.0, abs=1e-12)
+    assert solution["f"][0] == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_a_start_where_a_linear_system_is_singular_is_an_error(engine: Any) -> None:
+    system = ac.compile(Middle(x=ac.start(0.0, fixed=True)))
+    with pytest.raises(ac.SimulationError, match=r"do not determine their unknowns:\n\s+x\*f \+ g = 3"):
+        system.simulate(1.0, engine=engine)
