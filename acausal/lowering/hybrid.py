@@ -143,6 +143,21 @@ class Hybrid:
         itself."""
         return [self._follows(piece) for piece in self.relations]
 
+    @cached_property
+    def only_triggers(self) -> frozenset[int]:
+        """Slots of conditions that stand nowhere but in the conditions of `when`: that one is no longer true changes
+        nothing."""
+        flat = self.flat
+        others = [*flat.families, *flat.initial, *flat.actions]
+        read = [family.par_rows for family in others]
+        for piece in flat.slots.pieces:
+            own = piece.residual.args[0].value
+            if piece.residual.op != "triggered":
+                read.append(np.delete(piece.par_rows, own, axis=1))
+        used = np.unique(np.concatenate([np.zeros(0, np.int64), *(rows.ravel() for rows in read)]))
+        relations = np.concatenate([np.zeros(0, np.int64), *(piece.slots for piece in self.relations)])
+        return frozenset(np.setdiff1d(relations, used).tolist())
+
     def conditions(self, *, following: bool) -> Iterator[tuple[Piece, bool]]:
         """The relations that follow discrete quantities, or the others; and whether each is strict."""
         for piece, strict, follows in zip(self.relations, self.strict, self.following, strict=True):

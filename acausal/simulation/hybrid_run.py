@@ -128,8 +128,12 @@ class _Record:
         self.slots.append(np.broadcast_to(p[self.hybrid.slots], (n, self.hybrid.flat.slots.count)))
 
     def event(self, t: float, slots: list[int]) -> None:
-        """Note an event; those that do not let time pass are an error."""
-        self.events.append(Event(t, tuple(dict.fromkeys(self.hybrid.text(s) for s in slots))))
+        """Note an event, if anything follows from it; those that do not let time pass are an error.
+
+        That the condition of a `when` is no longer true has no consequence: a ball that bounces does so once.
+        """
+        if not (slots and self.hybrid.only_triggers.issuperset(slots)):
+            self.events.append(Event(t, tuple(dict.fromkeys(self.hybrid.text(s) for s in slots))))
         self.recent.append((t, slots))
         gaps = np.abs(np.diff([at for at, _ in self.recent]))
         if len(gaps) >= MANY_STUCK and (gaps < STUCK * self.span).all():

@@ -208,12 +208,13 @@ def residual(check: Check) -> tuple[float, str]:
 
 
 def broken(check: Check) -> list[str]:
-    """Conditions that do not stay as they are between two events."""
+    """Conditions in equations that do not stay as they are between two events; that of a `when` may cease to hold."""
+    matter = ca.which_depends(check.equations.residual, check.equations.m)
     found: list[str] = []
     for stretch in check.stretches:
         at_times = [check.equations.subjects(t, v, stretch.modes) for t, v in zip(stretch.t, stretch.v.T, strict=True)]
         for k, mode in enumerate(check.equations.modes):
-            if mode.kind != "relation":
+            if mode.kind != "relation" or not matter[k]:
                 continue
             x = np.array([subjects[k][0] for subjects in at_times])
             beyond = np.max(x) if stretch.modes[k] else -np.min(x)

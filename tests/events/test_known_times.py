@@ -34,7 +34,7 @@ def check(name: str, seed: int, engine: Any) -> None:
     late = np.abs(found[None] - wanted[:, None]).min(axis=1, initial=np.inf)
     assert late.max(initial=0.0) <= PRECISE * t1, f"seed {seed}: {wanted} and not {found}"
     if name == "ball":
-        assert solution["bounces"][-1] == len(wanted), f"seed {seed}: bounces"
+        assert solution["bounces"][-1] == len(wanted) == len(found), f"seed {seed}: bounces"
     elif name == "full_wave":
         early = np.abs(found[:, None] - wanted[None]).min(axis=1, initial=np.inf)
         assert early.max(initial=0.0) <= PRECISE * t1, f"seed {seed}: {found} and not {wanted}"
@@ -105,8 +105,10 @@ class Wave(ac.Component):
 
     y: ac.Variable = ac.Variable()
     n: ac.Discrete = ac.Discrete()
+    high: ac.Discrete = ac.Discrete()
 
     def equations(self) -> ac.Equations:
+        yield self.high == ac.where(self.y > 0.5, 1.0, 0.0)
         yield self.y + 0.1 * self.y**3 == ac.sin(2 * ac.PI * ac.time)
         yield ac.when(self.y > 0.5, {self.n: ac.pre(self.n) + 1})
 
