@@ -51,6 +51,6 @@ def found(second: float, one: float, states: bool, engine: Any) -> tuple[np.ndar
 def test_events_do_not_depend_on_units(second: float, one: float, states: bool, engine: Any) -> None:
     times, end = found(second, one, states, engine)
     wanted, wanted_end = found(1.0, 1.0, states, "native")
-    assert len(times) == len(wanted) == 20
+    assert len(times) == len(wanted) == 18
     np.testing.assert_allclose(times, wanted, atol=1e-8)
     np.testing.assert_allclose(end, wanted_end, atol=1e-7)
