@@ -36,7 +36,7 @@ from .template import (
     TemplateEquation,
 )  # fmt: skip
 from .vectors import VectorEquation
-from .when import assertion, statements
+from .when import assertion, starts_discrete, statements
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -283,7 +283,8 @@ class Elaborator:
             if not isinstance(item, Equation):
                 cls, what = type(component).__name__, type(item).__name__.lower()
                 raise DeclarationError(f"initial_equations() of `{cls}` yields a {what}(), use equations() {origin}")
-            template.initial.append(TemplateEquation(item.lhs, item.rhs, origin))
+            if not starts_discrete(item, template, origin):
+                template.initial.append(TemplateEquation(item.lhs, item.rhs, origin))
 
     def _where(self, step: Path) -> str:
         return path_text(tuple(part for f in self.stack[1:] for part in f.step) + step)

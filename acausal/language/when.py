@@ -7,10 +7,10 @@ is sorted and solved with all others. What `reinit`, `assert_` and `terminate` d
 from __future__ import annotations
 
 from ..errors import DeclarationError
-from ..symbolic.equation import Origin
+from ..symbolic.equation import Equation, Origin
 from ..symbolic.expr import Expr, intern_node, make
 from .declarations import Kind
-from .events import Assert, Branch, Reinit, When
+from .events import INITIAL, Assert, Branch, Reinit, When
 from .template import Template, TemplateAction, TemplateEquation
 
 
@@ -40,6 +40,32 @@ def statements(item: When, template: Template, origin: Origin) -> tuple[list[Tem
             new = make("where", (active, value, new))
         equations.append(TemplateEquation(target, new, origin))
     return equations, actions
+
+
+def starts_discrete(item: Equation, template: Template, origin: Origin) -> bool:
+    """Whether an initial equation gives a discrete variable; the `when` that assigns it has that value at the start.
+
+    Raises:
+        DeclarationError: the variable belongs to another component, or it is ``pre`` of a variable that is given.
+    """
+    for target, value in ((item.lhs, item.rhs), (item.rhs, item.lhs)):
+        name = target.args[0] if target.op == "pre" else target
+        declaration = template.resolve(name.value).declaration if name.op == "symbol" else None
+        if declaration is None or declaration.kind != Kind.DISCRETE:
+            continue
+        found = [k for k, e in enumerate(template.equations) if e.lhs is name and e.origin.kind == "when"]
+        if target is name and found:
+            k = found[0]
+            old = template.equations[k]
+            new = make("where", (INITIAL, value, old.rhs))
+            template.equations[k] = TemplateEquation(name, new, old.origin)
+            return True
+        if target is not name or len(name.value) > 1:
+            raise DeclarationError(
+                f"initial equation `{item.lhs} == {item.rhs}`: before the first event `{name}` has its start value: "
+                f"give that, `start({value})` in place of `{name}`, or assign it in `when(initial(), ...)` ({origin})"
+            )
+    return False
 
 
 def _reinits(branch: Branch, template: Template, origin: Origin) -> list[Reinit]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
+import numpy as np
+
 from .expr import Expr, make
 from .operators import OPERATORS
 
@@ -105,9 +107,14 @@ def postorder_missing(roots: list[Expr], known: Mapping[int, Any]) -> list[Expr]
     return order
 
 
+_ARITHMETIC = frozenset({"add", "mul", "div", "neg", "pow"})
+
+
 def apply(node: Expr, args: list[Any], xp: Any) -> Any:
     """Value of one operator on its operands' values."""
     op = node.op
+    if op in _ARITHMETIC:
+        args = [_number(a) for a in args]
     if op == "add":
         return _sum(args)
     if op == "mul":
@@ -124,6 +131,12 @@ def apply(node: Expr, args: list[Any], xp: Any) -> Any:
     if op == "where":
         return xp.where(*args)
     return getattr(xp, OPERATORS[op].array)(*args)
+
+
+def _number(value: Any) -> Any:
+    """A condition that is counted with is 1.0 or 0.0: truth values of arrays have no difference and no negative, and
+    their sum is another truth value."""
+    return value * 1.0 if getattr(value, "dtype", None) == np.bool_ else value
 
 
 def _sum(args: list[Any]) -> Any:
