@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from .asserted import check_given, check_start
 from .errors import InitializationError, UnknownNameError
 from .language.component import Component
 from .language.flat_model import FlatModel
@@ -60,6 +61,7 @@ class System:
         outputs: names given to `compile`.
         written: the flat model before events were taken out of it.
         hybrid: what happens at events; None if nothing does.
+        statements: the same, with assertions even where these are all there is; None if there is nothing.
         made_from: model, inputs and outputs that were compiled; a pickled system is compiled again from them.
     """
 
@@ -70,7 +72,7 @@ class System:
         lowered: Lowered,
         initial: InitialProblem,
         written: FlatModel,
-        hybrid: Hybrid | None = None,
+        statements: Hybrid | None = None,
     ) -> None:
         self.stages = stages
         self.program = program
@@ -78,7 +80,8 @@ class System:
         self.initial = initial
         self.outputs: tuple[str, ...] = ()
         self.written = written
-        self.hybrid = hybrid
+        self.statements = statements
+        self.hybrid = statements if statements is not None and statements.eventful else None
         self.made_from: tuple[Component, tuple[str, ...], tuple[str, ...]] | None = None
         self.cache: dict[Any, Any] = {}
         lowered.attach(self.observed_ids)
@@ -290,13 +293,16 @@ class System:
         Raises:
             DeclarationError: a parameter has a value outside its bounds.
             InitializationError: a parameter has no value, or the start is not consistent.
+            SimulationError: an assertion does not hold.
         """
         from .report import explain_initial
 
         check_parameters(self.stages.flat, p)
+        check_given(self, float(t0), p)
         check_determined(self, p)
         values = np.concatenate([np.ravel(np.asarray(a)) for a in (x0, w0, left)])
         if np.isfinite(values).all() and (not np.size(left) or float(np.max(np.asarray(left))) <= ACCEPTED):
+            check_start(self, float(t0), x0, w0, p)
             return
         arrays = np.asarray(x0), np.asarray(w0), np.asarray(p), np.asarray(left)
         raise InitializationError(explain_initial(self, *arrays, float(t0), initial or {}))

@@ -138,7 +138,12 @@ def terminate(message: str) -> Terminate:
 
 
 def assert_(condition: Operand | Equation, message: str, *, level: Level = "error") -> Assert:
-    """A condition that must hold at every step and event; the run stops with the message, or warns once."""
+    """A condition that must hold at every moment; the run stops with the message, or warns once.
+
+    Where it ceases to hold is found as an event. ``assert_(noevent(condition), ...)``, and a condition of parameters
+    alone, are checked at the start and at the points of the result instead, where their values are known (not inside of
+    JAX's transformations).
+    """
     if level not in ("error", "warning"):
         raise DeclarationError(f"assert_(level={level!r}): there are 'error' and 'warning'")
     return Assert(as_expr(condition), str(message), level)

@@ -11,7 +11,9 @@ import numpy as np
 
 from ..language.declarations import Kind
 from ..language.flat_model import Bools, Family, FlatModel
+from ..language.places import PACKAGE
 from ..language.template import Floats, Ints
+from ..passes.places import users_field
 from ..passes.schedule import Group
 from ..passes.specialize import specialize
 from ..symbolic.expr import ONE, Expr, add, neg
@@ -79,6 +81,33 @@ class Reinits:
     signs: Ints
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Assertion:
+    """A condition that must hold.
+
+    Attributes:
+        flat: the model.
+        piece: the condition.
+        message: what to say where it does not hold.
+        level: ``error`` or ``warning``.
+        switches: whether its condition switches at events; otherwise it is evaluated where values are known.
+    """
+
+    flat: FlatModel
+    piece: Piece
+    message: str
+    level: str
+    switches: bool
+
+    def text(self, t: float, row: int) -> str:
+        """What to say if one row does not hold at time t [s]."""
+        component, place = self.flat.equation_place(self.piece.rows, row)
+        who = component or self.flat.model_name
+        field = users_field(self.flat, component) if component and place.startswith(PACKAGE) else ""
+        written = f"\nWritten in:\n    {field}" if field else ""
+        return f"At t = {t:.9g} s the assertion of {who} ({place}) does not hold: {self.message}{written}"
+
+
 @dataclass(eq=False)
 class Hybrid:
     """How the slots of a model are determined, and what happens at its events.
@@ -98,11 +127,16 @@ class Hybrid:
     triggers: list[Piece]
     samples: list[Piece]
     reinits: list[Reinits]
-    asserts: list[tuple[Piece, str, str]]
+    asserts: list[Assertion]
     ends: list[tuple[Piece, str]]
     roots: Roots
     texts: dict[int, str] = field(default_factory=dict[int, str])
     closures: dict[str, list[Group]] = field(default_factory=dict[str, list[Group]])
+
+    @property
+    def eventful(self) -> bool:
+        """Whether there is more than assertions without events."""
+        return bool(self.flat.slots.count or self.reinits or self.ends)
 
     @property
     def only_modes(self) -> bool:
@@ -263,6 +297,9 @@ def _action(hybrid: Hybrid, family: Family) -> None:
             piece = Piece((trigger, value), family, none)
             hybrid.reinits.append(Reinits(piece, family.var_rows[:, leaf.value], signs))
     elif form.op == "assert":
-        hybrid.asserts.append((Piece(form.args, family, none), *form.value))
+        switches = bool((family.par_rows >= hybrid.first).any())
+        message, level = form.value
+        piece = Piece(form.args, family, none)
+        hybrid.asserts.append(Assertion(hybrid.flat, piece, message, level, switches))
     else:
         hybrid.ends.append((Piece(form.args, family, none), form.value))

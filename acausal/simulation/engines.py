@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from acausal.asserted import check_run
 from acausal.errors import SimulationError, UnknownNameError, nearest
 from acausal.lowering.c.text import NotInC
 from acausal.lowering.numeric import is_concrete
@@ -44,6 +45,14 @@ def simulate(system: Any, t1: Any, *, engine: str = "auto", **options: Any) -> S
     """
     if engine not in ENGINES:
         raise SimulationError(f"There is no engine {engine!r}; there are {', '.join(map(repr, ENGINES))}.")
+    solution = _solved(system, t1, engine, options)
+    if options.get("throw", True) and is_concrete((solution.t, solution.x)):
+        check_run(solution)
+    return solution
+
+
+def _solved(system: Any, t1: Any, engine: str, options: dict[str, Any]) -> Solution:
+    """The solution by the engine that can give it."""
     check_arguments(system, t1, options)
     options["saveat"] = within_run(options.get("saveat"), options.get("t0", 0.0), t1)
     system = system_to_run(system, options, engine)

@@ -76,7 +76,7 @@ class EventIteration(ModeSearch):
     ) -> None:
         super().__init__(hybrid, problem, equations)
         self.warn = warn
-        self.warned: set[str] = set()
+        self.warned: set[tuple[int, int]] = set()
         self.due: list[tuple[float, float, int]] = []
         self.moves: list[Move] = []
         self.noise: Floats = np.zeros(hybrid.roots.count)
@@ -259,29 +259,21 @@ class EventIteration(ModeSearch):
         return None
 
     def _check(self, point: Point) -> None:
-        """Assertions.
+        """Assertions that switch at events.
 
         Raises:
             SimulationError: one of level ``error`` does not hold.
         """
-        flat = self.hybrid.flat
-        for piece, message, level in self.hybrid.asserts:
-            bad = np.flatnonzero(piece.values(point)[0] == 0.0)
+        for k, item in enumerate(self.hybrid.asserts):
+            bad = np.flatnonzero(item.piece.values(point)[0] == 0.0) if item.switches else np.zeros(0, np.int64)
             if not len(bad):
                 continue
-            component, place = flat.equation_place(piece.rows, int(bad[0]))
-            who = component or flat.model_name
-            text = f"At t = {point.t:.9g} s the assertion of {who} ({place}) does not hold: {message}"
-            if level == "error":
+            text = item.text(point.t, int(bad[0]))
+            if item.level == "error":
                 raise SimulationError(text)
-            if place + component not in self.warned:
-                self.warned.add(place + component)
+            if (k, int(bad[0])) not in self.warned:
+                self.warned.add((k, int(bad[0])))
                 self.warn(text)
-
-    def check(self, t: float, z: Floats, p: Floats) -> None:
-        """Assertions at a point of a run."""
-        if self.hybrid.asserts:
-            self._check(Point(t, self.equations.values(t, z, p), p))
 
     # ---- samples ----------------------------------------------------------------------------------
     def schedule(self, t0: float, p: Floats) -> None:

@@ -124,6 +124,10 @@ class Solution:
         values = self._values(indices)
         return self._out(values if isinstance(sign, int) and sign == 1 else values * sign)
 
+    def values_of(self, ids: Any) -> Any:
+        """Values of the variables with these numbers in the vector of all variables, shape (n_t, n)."""
+        return self._values(ids)
+
     def _not_finite(self, key: Any, values: Any) -> str:
         """The first time at which a variable has no finite value, and the equation that this comes from."""
         where = ~np.isfinite(values.reshape(len(values), -1)).all(axis=1)

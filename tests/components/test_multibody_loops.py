@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from typing import Any
 
 import numpy as np
 import pytest
@@ -95,6 +96,7 @@ class PlanarFourbar(Component):
     ground: mb.FixedTranslation = mb.FixedTranslation(r=(2.0, 0.0, 0.0))
     right: mb.BodyShape = mb.BodyShape(r=(0.0, 1.2, 0.0), r_CM=(0.0, 0.6, 0.0), m=1.0)
     rod: mb.BodyShape = mb.BodyShape(r=(2.0, 0.0, 0.0), r_CM=(1.0, 0.0, 0.0), m=3.0)
+    bend: mb.FixedRotation = mb.FixedRotation(n=(0.0, 1.0, 0.0))
 
     def equations(self) -> Equations:
         yield connect(self.world.frame_b, self.base.frame_a)
@@ -103,7 +105,8 @@ class PlanarFourbar(Component):
         yield connect(self.left.frame_b, self.b.frame_a)
         yield connect(self.b.frame_b, self.rod.frame_a)
         yield connect(self.rod.frame_b, self.d.frame_a)
-        yield connect(self.d.frame_b, self.right.frame_b)
+        yield connect(self.d.frame_b, self.bend.frame_b)
+        yield connect(self.bend.frame_a, self.right.frame_b)
         yield connect(self.right.frame_a, self.c.frame_b)
         yield connect(self.c.frame_a, self.ground.frame_b)
 
@@ -123,6 +126,18 @@ def test_planar_loop_of_plain_hinges_is_explained() -> None:
     text = str(error.value)
     assert "The model has closed loops, at the connections of" in text and "test_multibody_loops.py:" in text
     assert "replace one `Revolute` of each planar loop by `RevolutePlanarLoopConstraint`" in text
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_a_loop_that_is_not_planar_is_an_error(engine: Any) -> None:
+    where = r"At t = 0 s the assertion of d \(.*free_joints.py:\d+ .*"
+    field = r"(.|\n)*Written in:\n    d: mb.PartialTwoFrames = .*test_multibody_loops.py:\d+"
+    moved = PlanarFourbar(ground=mb.FixedTranslation(r=(2.0, 0.0, 1e-6)))
+    with pytest.raises(ac.SimulationError, match=f"{where}frame_b is not in the plane of frame_a across n{field}"):
+        ac.compile(moved).simulate(t1=1.0, engine=engine)
+    skew = PlanarFourbar(bend=mb.FixedRotation(n=(0.0, 1.0, 0.0), angle=1e-4))
+    with pytest.raises(ac.SimulationError, match=f"{where}n has another direction in frame_b than in frame_a{field}"):
+        ac.compile(skew).simulate(t1=1.0, engine=engine)
 
 
 class Slider(Component):

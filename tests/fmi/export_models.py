@@ -267,6 +267,16 @@ class Breaks(Component):
         yield assert_(self.x < 0.5, "100 % is too much")
 
 
+class BreaksUnseen(Component):
+    """The same without an event."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1.0
+        yield assert_(ac.noevent(self.x < 0.5), "this is too much")
+
+
 class Latch(Component):
     """Positive feedback: either output agrees with the equations for a while, the start value says which is there."""
 

@@ -12,7 +12,20 @@ import pytest
 
 import acausal as ac
 
-from .export_models import Ball, Breaks, Dosed, Ends, Latch, Rectifier, Rounded, Sampled, Thermostat, Ticking, Wall
+from .export_models import (
+    Ball,
+    Breaks,
+    BreaksUnseen,
+    Dosed,
+    Ends,
+    Latch,
+    Rectifier,
+    Rounded,
+    Sampled,
+    Thermostat,
+    Ticking,
+    Wall,
+)
 from .export_unit import DISCARD, ERROR, OK, WARNING, Instance, Unit, exported
 
 BOTH = pytest.mark.parametrize("version", ("2.0", "3.0"))
@@ -236,6 +249,17 @@ def test_a_broken_assertion(version):
     assert one.step(0.0, 0.4) == OK
     assert one.step(0.4, 0.4) == DISCARD
     assert "an assertion does not hold: Breaks: 100 percent is too much" in one.messages[-1][1]
+    one.free()
+
+
+@BOTH
+def test_a_broken_assertion_without_an_event(version):
+    unit = exported(BreaksUnseen, version)
+    assert unit.root.attrib.get("numberOfEventIndicators", "0") == "0"
+    one = unit.instance().initialize()
+    assert one.step(0.0, 0.4) == OK
+    assert one.step(0.4, 0.4) == DISCARD
+    assert "an assertion does not hold: BreaksUnseen: this is too much" in one.messages[-1][1]
     one.free()
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from acausal import Equations, Parameter, Variable, Vector, branch, der, dot
+from acausal import Equations, Parameter, Variable, Vector, assert_, branch, der, dot, noevent
 
 from .frames import (
     TINY,
@@ -167,12 +167,21 @@ class FreeMotion(PartialRelativeRotation):
                 yield frame.t == ZEROS
 
 
+ACROSS = 1e-8
+"""What is farther out of a plane [m], or has a larger sine of the angle to its normal, is not in it."""
+NOT_PLANAR = (
+    "RevolutePlanarLoopConstraint closes planar loops only: use Revolute in its place, or correct the axes of the "
+    "joints and the positions of the parts of its loop."
+)
+
+
 class RevolutePlanarLoopConstraint(PartialTwoFrames):
     """Hinge that closes a planar loop: two constraints in the plane across the axis `n`, no others.
 
     In a loop of hinges with parallel axes the constraints across the plane are there several times, and the forces and
     torques that belong to them are not determined. One hinge of such a loop is replaced by this one, in which they are
-    zero. That both frames stay in one plane across `n` is not checked.
+    zero. That both frames are in one plane across `n`, and have `n` in common, is checked at the start and at the
+    points of the result.
 
     Source: Modelica.Mechanics.MultiBody.Joints.RevolutePlanarLoopConstraint.
 
@@ -199,7 +208,8 @@ class RevolutePlanarLoopConstraint(PartialTwoFrames):
     def equations(self) -> Equations:
         yield from super().equations()
         a, b = self.frame_a, self.frame_b
-        e_x, e_y = planar_basis(unit_vector(self.n))
+        e = unit_vector(self.n)
+        e_x, e_y = planar_basis(e)
         r_rel_a = resolve2(a.R, b.r_0 - a.r_0)
         yield dot(e_x, r_rel_a) == 0
         yield dot(e_y, r_rel_a) == 0
@@ -207,6 +217,11 @@ class RevolutePlanarLoopConstraint(PartialTwoFrames):
         yield b.t == ZEROS
         yield a.f == e_x * self.f_c[0] + e_y * self.f_c[1]
         yield b.f == -resolve_relative(a.f, a.R, b.R)
+        in_plane = noevent(abs(dot(e, r_rel_a)) <= ACROSS)
+        yield assert_(in_plane, f"frame_b is not in the plane of frame_a across n. {NOT_PLANAR}")
+        e_b = resolve_relative(e, b.R, a.R)
+        parallel = (abs(dot(e_x, e_b)) <= ACROSS) & (abs(dot(e_y, e_b)) <= ACROSS)
+        yield assert_(noevent(parallel), f"the axis n has another direction in frame_b than in frame_a. {NOT_PLANAR}")
 
 
 def implied_mass(modifications: Mapping[str, Any], *names: str) -> dict[str, Any]:

@@ -26,7 +26,7 @@ def event_families(hybrid: Hybrid | None) -> list[Family]:
     pairs = [item.piece for item in hybrid.reinits]
     for piece in pairs:
         out += [_form(piece, form, row) for row in range(piece.rows.size) for form in piece.forms]
-    out += [_form(piece, piece.forms[0]) for piece, _, _ in hybrid.asserts]
+    out += [_form(piece, piece.forms[0]) for piece in (item.piece for item in hybrid.asserts)]
     out += [_form(piece, piece.forms[0]) for piece, _ in hybrid.ends]
     for piece in hybrid.samples:
         out += [_form(piece, form, row) for row in range(piece.rows.size) for form in piece.forms]
@@ -44,7 +44,7 @@ def event_tables(system: System) -> list[str]:
     Raises:
         ExportError: a variable that is no state is reinitialized.
     """
-    hybrid, low = system.hybrid, system.lowered
+    hybrid, low = system.statements, system.lowered
     slots = system.stages.flat.slots
     states = low.schedule.states
     sizes = dict.fromkeys(("FLOORS", "PRES", "CONDITIONS", "REINITS", "ASSERTS", "ENDS", "SAMPLES"), 0)
@@ -63,10 +63,12 @@ def event_tables(system: System) -> list[str]:
         numbers["condition_slot"] = [s for piece in hybrid.triggers for s in piece.slots.tolist() for _ in piece.forms]
         numbers["sample_slot"] = _slots(hybrid.samples)
         numbers["reinit_state"], numbers["reinit_sign"] = _reinits(system, hybrid)
-        numbers["assert_fatal"] = [int(level == "error") for p, _, level in hybrid.asserts for _ in range(p.rows.size)]
+        numbers["assert_fatal"] = [
+            int(item.level == "error") for item in hybrid.asserts for _ in range(item.piece.rows.size)
+        ]
         texts["assert_text"] = [
-            f"{hybrid.flat.equation_place(p.rows, i)[0] or system.name}: {message}"
-            for p, message, _ in hybrid.asserts for i in range(p.rows.size)
+            f"{hybrid.flat.equation_place(item.piece.rows, i)[0] or system.name}: {item.message}"
+            for item in hybrid.asserts for i in range(item.piece.rows.size)
         ]  # fmt: skip
         texts["end_text"] = [message for p, message in hybrid.ends for _ in range(p.rows.size)]
         texts["slot_text"] = [hybrid.flat.slot_text(hybrid.first + k) for k in range(slots.count)]

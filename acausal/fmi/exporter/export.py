@@ -78,7 +78,7 @@ def export(
     main = f"fmi{version[0]}.c"
     description = Description(
         system.name, identifier, _token(code, fixed, identifier), _summary(system), table, Dependence(system), kinds,
-        (main,), system.hybrid.roots.count if system.hybrid is not None else 0, stop, tolerance, step,
+        (main,), system.statements.roots.count if system.statements is not None else 0, stop, tolerance, step,
     )  # fmt: skip
     sources = fixed | {"equations.c": f'#define FMU_TOKEN "{description.token}"\n{code}'}
     members: dict[str, str | bytes] = {"modelDescription.xml": write(description, version)}

@@ -20,7 +20,7 @@ def guess_function(system: System) -> str:
     As in `simulate`: where several modes are consistent, as in what switches by positive feedback, start values choose.
     Where they say nothing (they are nan), a mode is 0.
     """
-    problem, hybrid, n_p = system.initial, system.hybrid, system.lowered.n_p
+    problem, hybrid, n_p = system.initial, system.statements, system.lowered.n_p
 
     def leaf(node: Expr) -> str:
         if node.op == "time":

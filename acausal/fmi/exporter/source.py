@@ -46,8 +46,9 @@ def equations(system: System) -> str:
     def label(v: int) -> str:
         return flat.name(v) if v < flat.n_total else ""
 
-    further = {"ac_event_values": event_families(system.hybrid)}
-    return to_c(system.program, system.initial, label, hybrid=system.hybrid, further=further, observe_tangent=True).text
+    hybrid = system.statements
+    further = {"ac_event_values": event_families(hybrid)}
+    return to_c(system.program, system.initial, label, hybrid=hybrid, further=further, observe_tangent=True).text
 
 
 def tables(

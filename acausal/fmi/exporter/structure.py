@@ -40,7 +40,7 @@ class Dependence:
         self.variables = {v: bits[id(e)] for v, e in known.items()}
         self.slopes = [int(i) for i in low.dx_ids]
         self.starts = self._starts(system)
-        forms = [] if system.hybrid is None else family_residuals(self.straight, system.hybrid.roots.families)
+        forms = [] if system.statements is None else family_residuals(self.straight, system.statements.roots.families)
         bits = self._bits(forms)
         self.roots = [self._in_run(bits[id(e)]) for e in forms]
 

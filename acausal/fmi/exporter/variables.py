@@ -130,8 +130,8 @@ def collect(system: System, version: str) -> list[FmuVariable]:
         slope = FmuVariable(f"der({table[of].name})", Place.DERIVATIVE, i, 1, "local", derivative_of=of)
         slope.unit, slope.description = _per_second(table[of].unit), f"time derivative of {table[of].name}"
         table.append(slope)
-    if version == "3.0" and system.hybrid is not None:
-        table += list(_indicators(system.hybrid))
+    if version == "3.0" and system.statements is not None:
+        table += list(_indicators(system.statements))
     return table
 
 
