@@ -145,6 +145,12 @@ def _checked_numbers(cls: type[Instance], field: Structural, value: Any) -> Any:
 
 def _checked_child(cls: type[Instance], name: str, value: Any) -> Any:
     wanted = constraint_of(cls, name)
+    default = cls._children[name].default
+    if isinstance(value, (list, tuple, Array)) and isinstance(default, (Instance, Shared)):
+        raise DeclarationError(
+            f"`{cls.__name__}.{name}` is one `{wanted.__name__}`, and cannot be replaced by several: where elements of "
+            f"an array differ in a sub-component, write them out, `[{cls.__name__}({name}=...), ...]` {call_site()}"
+        )
     items = [value.component] if isinstance(value, Shared) else [value._element] if isinstance(value, Array) else value
     for item in items if isinstance(items, (list, tuple)) else [items]:
         if not isinstance(item, wanted):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, Generic, TypeVar, cast, overload
 
 from ..errors import DeclarationError, nearest
@@ -64,6 +64,26 @@ class Array(Generic[C]):
 
     def __repr__(self) -> str:
         return f"Array({self._element!r}, {self._count!r})"
+
+
+class Listed(list[Any]):
+    """Components of possibly different classes, seen at a path: as of an `Array`, a field of a slice is that of all."""
+
+    def __init__(self, components: Sequence[Instance], path: tuple[Any, ...], chosen: range) -> None:
+        super().__init__(view(components[i], (*path, i)) for i in chosen)
+        self._seen = components, path, chosen
+
+    def __getitem__(self, index: Any) -> Any:
+        if not isinstance(index, slice):
+            return super().__getitem__(index)
+        components, path, chosen = self._seen
+        return Listed(components, path, chosen[index])
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or not self:
+            raise AttributeError(name)
+        components, path, chosen = self._seen
+        return getattr(view(components[chosen[0]], (*path, chosen)), name)
 
 
 def _by_component(cls: type[Instance], name: str, value: Any) -> dict[str, Any]:
@@ -160,5 +180,5 @@ def view(child: Any, path: tuple[Any, ...]) -> Any:
         seen._path, seen._length = path, child._length
         return seen
     if isinstance(child, (list, tuple)):
-        return [view(c, (*path, i)) for i, c in enumerate(child)]
+        return Listed(child, path, range(len(child)))
     return record(type(child), child.__dict__["_mods"], path)

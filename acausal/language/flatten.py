@@ -22,7 +22,7 @@ from .instance import path_text
 from .loops import LoopFinder, holds
 from .overdetermined import Overdetermined
 from .spanning_forest import Forest
-from .template import Ints, Path, Template, TemplateAction, TemplateChoice, TemplateEquation
+from .template import Ints, Path, Reference, Template, TemplateAction, TemplateChoice, TemplateEquation
 
 Role = Literal["equation", "initial", "action", "rule"]
 
@@ -242,8 +242,14 @@ def canonical_form(
 ) -> Canonical:
     """Symbols become slots, `der` is carried down to variables."""
 
+    def resolved(path: Path) -> Reference:
+        try:
+            return template.resolve(path)
+        except DeclarationError as error:
+            raise DeclarationError(f"{error} ({equation.origin})") from None
+
     def is_parameter(leaf: Expr) -> bool:
-        declaration = template.resolve(leaf.value).declaration
+        declaration = resolved(leaf.value).declaration
         if declaration is None:
             raise DeclarationError(f"`{leaf}` is a component, not a quantity ({equation.origin})")
         return declaration.kind == Kind.PARAMETER
@@ -262,7 +268,7 @@ def canonical_form(
                 f"`self.{leaf}` ({equation.origin})"
             )
         path, order = (leaf.value, 0) if leaf.op == "symbol" else leaf.value
-        reference = template.resolve(path)
+        reference = resolved(path)
         ids_shape = reference.par_offsets.shape if is_parameter(_symbol(path)) else reference.offsets.shape
         if ids_shape and shape and ids_shape != shape:
             raise DeclarationError(

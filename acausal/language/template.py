@@ -7,7 +7,7 @@ variables and parameters. That is what keeps a ladder of 100 000 cells as cheap 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -205,6 +205,14 @@ class Template:
             if slot.count is not None:
                 index = path[i] if i < len(path) else range(slot.count)
                 i += 1
+            if not slot.uniform and isinstance(index, range):
+                found = _of_different(slot, index, path[i:])
+                within = found.outer is None
+                if found.offsets.ndim:
+                    found.offsets = np.add.outer(offset * within, found.offsets)
+                if found.par_offsets.ndim:
+                    found.par_offsets = np.add.outer(par_offset * within, found.par_offsets)
+                return replace(found, outer=outer if within else found.outer, inside=inside or found.inside)
             template, v, p = _element(slot, index)
             plain = isinstance(v, int)
             offset = offset + v if plain else np.add.outer(offset, v)
@@ -258,12 +266,29 @@ def _element(slot: ChildSlot, index: Any) -> tuple[Template, Any, Any]:
         template = slot.templates[0]
         k = index if isinstance(index, int) else np.asarray(index, np.int64)
         return template, slot.var_offsets[0] + k * template.var_count, slot.par_offsets[0] + k * template.par_count
-    if isinstance(index, int):
-        return slot.templates[index], slot.var_offsets[index], slot.par_offsets[index]
-    chosen = [slot.templates[i] for i in index]
-    if any(t.own.keys() != chosen[0].own.keys() for t in chosen):
-        raise DeclarationError(f"a slice of `{slot.name}` mixes different classes; index its elements one by one")
-    return chosen[0], np.asarray([slot.var_offsets[i] for i in index]), np.asarray([slot.par_offsets[i] for i in index])
+    return slot.templates[index], slot.var_offsets[index], slot.par_offsets[index]
+
+
+def _of_different(slot: ChildSlot, index: range, rest: Path) -> Reference:
+    """What `rest` leads to in the elements of a slice that are components of several classes, as one reference."""
+    what = f"`{slot.name}[{index.start}:{index.stop}]{f'.{path_text(rest)}' if rest else ''}`"
+    try:
+        found = [slot.templates[i].resolve(rest) for i in index]
+    except DeclarationError as error:
+        raise DeclarationError(f"{what} is not in all elements: {error}") from None
+    kinds = {(None if r.declaration is None else r.declaration.kind, id(r.template), r.outer) for r in found}
+    if len(kinds) != 1 or len({(r.offsets.shape, r.par_offsets.shape) for r in found}) != 1:
+        raise DeclarationError(
+            f"{what} is not the same in all elements, which are of different classes: take them one by one, "
+            f"`for part in self.{slot.name}`"
+        )
+    first, within = found[0], found[0].outer is None
+    offsets = np.stack([r.offsets + within * slot.var_offsets[i] for r, i in zip(found, index, strict=True)])
+    par_offsets = np.stack([r.par_offsets + within * slot.par_offsets[i] for r, i in zip(found, index, strict=True)])
+    if first.declaration is not None:  # a quantity is a variable or a parameter
+        is_par = first.declaration.kind == Kind.PARAMETER
+        offsets, par_offsets = (np.zeros((), np.int64), par_offsets) if is_par else (offsets, np.zeros((), np.int64))
+    return Reference(offsets, par_offsets, first.declaration, first.template, first.outer, first.inside)
 
 
 @dataclass(slots=True)

@@ -13,7 +13,9 @@ from ..errors import StructureError
 from ..language.declarations import Kind
 from ..language.flat_model import FlatModel
 from ..language.loops import overdetermined_parts
-from ..language.template import Ints, Template
+from ..language.template import Ints, Template, TemplateEquation
+from ..symbolic.printing import path_text
+from ..symbolic.traverse import leaves
 from .aliases import Reduced
 from .places import context
 
@@ -85,6 +87,11 @@ class _Text:
             self.lines.append(f"    ... and {len(row_set) - SHOWN} more")
         return list(dict.fromkeys(found))
 
+    def _kinds(self, row_set: Ints) -> set[str]:
+        """What kinds of statements the equations come from."""
+        places = (self.rows.locate(int(r)) for r in row_set)
+        return {self.flat.sources[int(family.source[k])].origin.kind for family, k in places}
+
     def redundant(self) -> None:
         """Alias equations that close a cycle."""
         for r in self.reduced.redundant[:PARTS]:
@@ -103,7 +110,12 @@ class _Text:
         self.lines.append(f"\nOver-determined: {_count(len(row_set), 'equation')} for {known}:")
         components = self._rows(row_set)
         self.over_unknowns.extend(names)
-        if len(components) > 1 and len(components) <= 4 and len(names) == 1:
+        if len(names) == 1 and self._kinds(row_set) == {"when"}:
+            self.tips.append(
+                f"`{names[0]}` is assigned by more than one `when`: make them branches of one, "
+                "when(a, ...).elsewhen(b, ...), of which the first that is triggered counts"
+            )
+        elif len(components) > 1 and len(components) <= 4 and len(names) == 1:
             who = " and ".join(f"`{c or self.flat.model_name}`" for c in components)
             self.tips.append(
                 f"{who} both determine `{names[0]}`, like two ideal voltage sources in parallel, two current sources "
@@ -145,6 +157,10 @@ class _Text:
             names = ", ".join(f"`{i}`" for i in inputs[:6])
             tips.append(f"input {names} has no value: connect it or give it an equation")
         potentials = [n for n in self.under_unknowns if _kind(self.flat, n) == Kind.POTENTIAL]
+        given = [n for n in self.absent if n in _reinitialized(self.flat)]
+        if given:
+            names, verb = ", ".join(f"`{n}`" for n in given[:4]), "are" if len(given) > 1 else "is"
+            tips.insert(0, f"{names} {verb} given in `when` only: declare what changes at events only as `Discrete`")
         if potentials and self.reduced.redundant:
             names = ", ".join(f"`{p}`" for p in potentials[:4])
             occur = "occur" if len(potentials) > 1 else "occurs"
@@ -170,6 +186,12 @@ def _unconnected(reduced: Reduced) -> list[str]:
     for z in flat.zero.tolist():
         seen[flat.name(int(z)).rsplit(".", 1)[0]] = None
     return list(seen)
+
+
+def _reinitialized(flat: FlatModel) -> dict[str, None]:
+    """Variables that a `when` gives new values without being their equation."""
+    reinits = [f for f in flat.actions if f.residual.op == "reinit"]
+    return {flat.name(int(v)): None for f in reinits for v in f.var_rows[:, f.residual.args[0].value]}
 
 
 def _kind(flat: FlatModel, name: str) -> Kind | None:
@@ -200,24 +222,38 @@ def unbalanced_classes(root: Template) -> list[str]:
             continue
         if any(overdetermined_parts(t) for s in template.children.values() for t in s.templates if t.is_connector):
             continue  # what such a component must give depends on where the root is
-        have = sum(_equation_count(template, e) for e in template.equations)
+        have = sum(_equation_count(template, e) for e in template.equations if not _gives_inputs(template, e))
         need = _needed(template)
         if have != need and all(t.is_connector for s in template.children.values() for t in s.templates):
             kind = "too many" if have > need else "too few"
             tips.append(
-                f"class `{template.cls.__name__}` ({template.cls._source[0]}:{template.cls._source[1]}) has {have} "
-                f"equations where {need} are needed ({kind}): one for each variable, output and flow"
+                f"class `{template.cls.__name__}` ({template.cls._source[0]}:{template.cls._source[1]}) has "
+                f"{_count(have, 'equation')} where {need} are needed ({kind}): one for each variable, output and flow"
+                + _unused_flow(template)
             )
     return tips
 
 
-def _equation_count(template: Template, equation: object) -> int:
-    from ..symbolic.traverse import leaves
+def _gives_inputs(template: Template, equation: TemplateEquation) -> bool:
+    """Whether an equation has no unknown but inputs, which the class gives itself where nothing is to be connected."""
+    found = [template.resolve(leaf.value).declaration for leaf in leaves(equation.lhs, equation.rhs, op="symbol")]
+    kinds = {declaration.kind for declaration in found if declaration is not None} - {Kind.PARAMETER}
+    return kinds == {Kind.INPUT}
 
-    shapes = [
-        template.resolve(leaf.value).offsets.size
-        for leaf in leaves(equation.lhs, equation.rhs, op="symbol")  # type: ignore[attr-defined]
-    ]
+
+def _unused_flow(template: Template) -> str:
+    """A flow of the class that none of its equations has: most often the one that is forgotten."""
+    used = {leaf.value for e in template.equations for leaf in leaves(e.lhs, e.rhs, op="symbol")}
+    for path, _ in template.leaf_names(False):
+        declaration = template.resolve(path).declaration
+        if declaration is not None and declaration.kind == Kind.FLOW and not any(path[: len(u)] == u for u in used):
+            return f"; no equation of it has `{path_text(path)}`"
+    return ""
+
+
+def _equation_count(template: Template, equation: TemplateEquation) -> int:
+    symbols = leaves(equation.lhs, equation.rhs, op="symbol")
+    shapes = [template.resolve(leaf.value).offsets.size for leaf in symbols]
     return max(shapes, default=1)
 
 

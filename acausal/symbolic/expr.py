@@ -91,10 +91,16 @@ class Expr:
         return make("ge", (self, as_expr(other)))
 
     def __and__(self, other: Operand) -> Expr:
-        return make("and", (self, as_expr(other)))
+        return make("and", (self, _logical(other, "&")))
 
     def __or__(self, other: Operand) -> Expr:
-        return make("or", (self, as_expr(other)))
+        return make("or", (self, _logical(other, "|")))
+
+    def __rand__(self, other: Operand) -> Expr:
+        return make("and", (_logical(other, "&"), self))
+
+    def __ror__(self, other: Operand) -> Expr:
+        return make("or", (_logical(other, "|"), self))
 
     def __invert__(self) -> Expr:
         return make("not", (self,))
@@ -191,6 +197,16 @@ def intern_node(op: str, args: tuple[Expr, ...], value: Any = None) -> Expr:
             object.__setattr__(node, "value", value)
             _TABLE[key] = node
         return node
+
+
+def _logical(other: Operand, operator: str) -> Expr:
+    """An operand of ``&`` or ``|``; a number is none, but what is left of a comparison without parentheses."""
+    if isinstance(other, (int, float)) and not isinstance(other, bool):
+        raise TypeError(
+            f"`{operator}` joins conditions, and {other!r} is a number: it binds closer than comparisons do, so write "
+            f"(a > 0) {operator} (b > 0), each comparison in parentheses"
+        )
+    return as_expr(other)
 
 
 def _rebuild(op: str, args: tuple[Expr, ...], value: Any) -> Expr:

@@ -294,6 +294,30 @@ CASES = {
         """,
         ["`&` and `|` instead of `and` and `or`"],
     ),
+    "conditions without parentheses": (
+        """
+        class M(Component):
+            x: Variable = Variable()
+
+            def equations(self):
+                yield self.x == ac.where(self.x > 0 & self.x < 1, 1, 0)  # HERE
+
+        ac.compile(M())
+        """,
+        ["`&` joins conditions, and 0 is a number", "(a > 0) & (b > 0), each comparison in parentheses"],
+    ),
+    "a number is no condition": (
+        """
+        class M(Component):
+            x: Variable = Variable()
+
+            def equations(self):
+                yield self.x == ac.where(self.x < self.x | 3, 1, 0)  # HERE
+
+        ac.compile(M())
+        """,
+        ["`|` joins conditions, and 3 is a number", "(a > 0) | (b > 0)"],
+    ),
     "a connector in an equation": (
         """
         class M(Component):

@@ -103,6 +103,57 @@ CASES = {
             "has 5 equations where 4 are needed (too many)",
         ],
     ),
+    "two statements assign one variable": (
+        """
+        class M(Component):
+            x: Variable = Variable(start=0.0, fixed=True)
+            n: Discrete = Discrete()
+
+            def equations(self):
+                yield der(self.x) == 1
+                yield when(self.x > 1, {self.n: 1})  # HERE
+                yield when(self.x > 2, {self.n: 0})  # HERE
+
+        ac.compile(M())
+        """,
+        ["2 equations for 1 unknown (n)", "`n` is assigned by more than one `when`", "elsewhen"],
+    ),
+    "a variable that is assigned and not discrete": (
+        """
+        class M(Component):
+            x: Variable = Variable(start=0.0, fixed=True)
+            n: Variable = Variable()  # HERE
+
+            def equations(self):
+                yield der(self.x) == 1
+                yield when(self.x > 1, {self.n: 1})
+
+        ac.compile(M())
+        """,
+        ["1 unknown (n) in no equation", "`n` is given in `when` only", "`Discrete`"],
+    ),
+    "a flow that a class forgets": (
+        """
+        class Voltmeter(Component):  # HERE
+            p: Pin = Pin()
+            v: Output = Output()
+
+            def equations(self):
+                yield self.v == self.p.v
+
+        class M(Component):
+            source: Source = Source()  # HERE
+            ground: Ground = Ground()
+            meter: Voltmeter = Voltmeter()
+
+            def equations(self):
+                yield connect(self.source.n, self.ground.p)
+                yield connect(self.source.p, self.meter.p)
+
+        ac.compile(M())
+        """,
+        ["class `Voltmeter`", "has 1 equation where 2 are needed (too few)", "no equation of it has `p.i`"],
+    ),
     "too few equations": (
         """
         class R2(TwoPin):  # HERE

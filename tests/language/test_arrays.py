@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -297,3 +299,52 @@ def test_vectors_along_an_array_have_the_length_of_the_field() -> None:
 
     with pytest.raises(DeclarationError, match=r"beams\.r\[1\]"):
         ac.compile(Short())
+
+
+class Meter(Component):
+    u: Variable = Variable(unit="V")
+
+
+class InSeries(Component):
+    """Parts in a row between the poles of a source, with a meter for each."""
+
+    source: Source = Source()
+    ground: Ground = Ground()
+    parts: Array[TwoPin] = Array(Resistor(), 3)
+    meters: Array[Meter] = Array(Meter(), 3)
+
+    def equations(self) -> Equations:
+        yield connect(self.source.p, self.parts[0].p)
+        yield connect(self.parts[:-1].n, self.parts[1:].p)
+        yield connect(self.parts[-1].n, self.source.n, self.ground.p)
+        yield self.meters[:].u == self.parts[:].v
+
+
+def test_a_slice_of_a_list_stands_for_components_of_different_classes() -> None:
+    """A list takes the place of the array of a class that is written with slices."""
+    parts: Any = [Resistor(R=2.0), Capacitor(C=0.5, v=start(0.0, fixed=True)), Conductor(R=2.0)]
+    solution = ac.compile(InSeries(parts=parts)).simulate(2.0, saveat=5, rtol=1e-9)
+    decay = np.exp(-np.asarray(solution.t) / 2.0)
+    for k, expected in enumerate((decay / 2, 1.0 - decay, decay / 2)):
+        assert_allclose(solution[f"meters[{k}].u"], expected, atol=1e-8)
+
+
+def test_a_slice_of_what_only_some_components_have() -> None:
+    class Bad(InSeries):
+        def equations(self) -> Equations:
+            yield from super().equations()
+            yield self.parts[:].R == 1  # HERE
+
+    message = r"`parts\[0:3\]\.R` is not in all elements: .*`Capacitor` has no `R`.*test_arrays.py:\d+ \(Bad\)"
+    parts: Any = [Resistor(), Capacitor(), Resistor()]
+    with pytest.raises(DeclarationError, match=message):
+        ac.compile(Bad(parts=parts))
+
+
+def test_several_components_for_one() -> None:
+    class Two(Component):
+        part: Resistor = Resistor()
+
+    for several in ([Resistor(), Resistor()], Array(Resistor(), 2)):
+        with pytest.raises(DeclarationError, match=r"`Two.part` is one `Resistor`.*\[Two\(part=...\), .*test_arrays"):
+            Two(part=several)  # pyright: ignore[reportArgumentType]
