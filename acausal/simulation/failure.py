@@ -56,13 +56,14 @@ def explain(
         return "\n".join([head, f"{found} there.", *_equation(system, lowered, t, x, w, p), *lost, counts])
 
     lines = [head, *_fastest(system, np.asarray(x), np.asarray(dx), lowered.x_nominal)]
-    if result == "dt_min_reached":
-        # The step that failed went just beyond the last point.
+    if result in ("dt_min_reached", "max_steps_reached"):
+        # The steps that failed went just beyond the last point.
         step = 1e-6 * (t1 - t)
         beyond = t + step, x + step * dx, w, p
         found = _nonfinite(system, *lowered.derivatives(*beyond))
         if found:
             lines += [f"{found} just beyond this point.", *_equation(system, lowered, *beyond)]
+    if result == "dt_min_reached":
         lines.append(
             "Often: a square root or a division that leaves its domain, a solution that grows without bound, a "
             "discontinuity that should be an event, or a variable that matters while it is far below its absolute "

@@ -104,6 +104,20 @@ def test_a_loop_that_cannot_be_closed() -> None:
         ac.compile(model).simulate(1.0)
 
 
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_a_loop_that_reaches_its_dead_centre(engine: Any) -> None:
+    """A slider, pushed away until crank and rod are in line: there it would stay at rest, which no mechanism does."""
+    model = assemble(
+        "world.frame_b - slider.frame_a", "slider.frame_b - loop.frame_a", "world.frame_b - loop.frame_b",
+        "loop.frame_im - bob.frame_a", world=inner(mb.World(gravityType="NoGravity")), bob=mb.Body(m=1.0),
+        slider=mb.Prismatic(s=start(1.0, fixed=True), v=start(1.0, fixed=True)),
+        loop=mb.JointUSR(rRod1_ia=(-1.0, 0.0, 0.0), rRod2_ib=(1.0, 0.0, 0.0), n1_a=(0.0, 1.0, 0.0)),
+    )  # fmt: skip
+    message = r"(?s)is nan (there|just beyond this point)\..*loop\.revolute\.angle = atan2"
+    with pytest.raises(ac.SimulationError, match=message):
+        ac.compile(model).simulate(3.0, engine=engine, max_steps=10_000)
+
+
 @pytest.mark.parametrize("sequence", [(1, 2, 3), (3, 2, 1), (3, 1, 3), (2, 3, 1), (1, 2, 1)])
 def test_angles_that_are_measured_are_those_that_were_given(sequence: tuple[int, ...]) -> None:
     """The sensor inverts a sequence of rotations, Cardan's and Euler's."""

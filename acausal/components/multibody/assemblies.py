@@ -1,7 +1,9 @@
 """Three joints and two rods between them, which close a loop without adding constraints or states.
 
 The loop is solved in closed form: the coordinate of the last joint follows from the length of the first rod. So the
-joints outside keep their coordinates as states, one set for the whole motion, as long as the loop can be closed.
+joints outside keep their coordinates as states, one set for the whole motion, as long as the loop can be closed. At a
+dead centre, where both ways to close it meet, the run ends with an error; the joints of which an assembly consists, one
+by one, go on there.
 """
 
 from __future__ import annotations

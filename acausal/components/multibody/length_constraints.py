@@ -23,6 +23,18 @@ from .. import rotational, translational
 from .frames import ZEROS, equal, planar_rotation, resolve1, unit_vector
 from .parts import DEGREE, PartialTwoFrames, turned
 
+DEAD_CENTRE = 1e-7
+"""Share of the squares at which both ways to close a loop count as one: within 0.02 degrees."""
+
+
+def open_root(difference: Expr, size: Expr) -> Expr:
+    """Root of a `difference` of squares of this `size`; not a number where it is none, or the loop at a dead centre.
+
+    There both ways to close the loop meet, and the velocity of the joint no longer follows from those outside: these
+    vanish. To rest there would be a solution, which no mechanism follows.
+    """
+    return sqrt(noevent(where(difference > DEAD_CENTRE * size, difference, -1.0)))
+
 
 class PartialLengthConstraint(PartialTwoFrames, partial=True):
     """One coordinate, for which ``|r_a - r_b(coordinate)| = length`` has two roots.
@@ -90,7 +102,7 @@ class RevoluteWithLengthConstraint(PartialLengthConstraint):
         along = dot(e, r_b) * dot(e, r_a)
         A, B = (dot(r_b, r_a) - along) * -2, dot(r_b, cross(e, r_a)) * 2
         C = dot(r_a, r_a) + dot(r_b, r_b) - self.length**2 - 2 * along
-        k = sqrt(A * A + B * B - C * C) * sign
+        k = open_root(A * A + B * B - C * C, A * A + B * B) * sign
         return atan2(-B * C - A * k, -A * C + B * k)
 
     def equations(self) -> Equations:
@@ -132,7 +144,7 @@ class PrismaticWithLengthConstraint(PartialLengthConstraint):
     def root(self, sign: Expr | float) -> Expr:
         r = self.position_b - self.position_a
         along = dot(unit_vector(self.n), r)
-        return sqrt(along * along - dot(r, r) + self.length**2) * sign - along
+        return open_root(along * along - dot(r, r) + self.length**2, self.length**2) * sign - along
 
     def equations(self) -> Equations:
         yield from super().equations()
