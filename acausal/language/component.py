@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import sys
 from collections.abc import Generator, Mapping
-from typing import TYPE_CHECKING, Any, TypeVar, dataclass_transform
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, dataclass_transform
 
 from ..errors import DeclarationError, nearest
 from ..symbolic.equation import Equation
@@ -61,6 +61,9 @@ class Component(Instance):
             modifications[name] = checked(cls, name, value)
         self.__dict__["_mods"] = {**self._implied(modifications), **modifications}
         self.__dict__["_path"] = ()
+
+    _must_connect: ClassVar[tuple[str, ...]] = ()
+    """Names of connectors without a connection to which the component means nothing."""
 
     @classmethod
     def _implied(cls, modifications: Mapping[str, Any]) -> dict[str, Any]:

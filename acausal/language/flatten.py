@@ -23,6 +23,7 @@ from .loops import LoopFinder, holds
 from .overdetermined import Overdetermined
 from .spanning_forest import Forest
 from .template import Ints, Path, Reference, Template, TemplateAction, TemplateChoice, TemplateEquation
+from .unconnected import LooseEnds
 
 Role = Literal["equation", "initial", "action", "rule"]
 
@@ -64,6 +65,7 @@ class Flattener:
         self.start_assignments: list[Assignment] = []
         self.graph = ConnectionGraph()
         self.loops = LoopFinder()
+        self.ends = LooseEnds()
         self.choices: list[tuple[Visit, TemplateChoice]] = []
         self.evaluated: list[Ints] = []
 
@@ -121,6 +123,7 @@ class Flattener:
         for name, (is_par, offset) in template.own.items():
             if is_par and template.cls._declarations[name].evaluate:
                 self.evaluated.append(visit.par_base + offset)
+        self.ends.add(template, visit.path, visit.var_base)
         if template.is_connector:
             self.graph.add_connectors(template, visit.var_base, visit.path)
         for equation in template.equations:
@@ -326,6 +329,7 @@ def flatten(model: Component) -> FlatModel:
     template, attributes = Elaborator().root(model)
     walker = Flattener()
     walker.visit_all(template)
+    walker.ends.check(walker.graph, template)
     loops = walker.loops.solve(walker.graph, walker.sources)
     walker.choose(loops.forest)
     joined = solve_connections(walker.graph, template, walker.sources, loops.kept)

@@ -7,9 +7,13 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..errors import DeclarationError
 from .component import Component
+
+if TYPE_CHECKING:
+    from .template import Template
 
 PACKAGE = str(Path(__file__).parents[1])
 
@@ -26,6 +30,31 @@ def field_place(cls: type[Component], name: str) -> tuple[str, str]:
         if text.strip() and not text[0].isspace() and not text.startswith((")", "]", "#")):
             break
     return "", f"{file}:{first} ({owner.__name__})"
+
+
+def owner_of(root: Template, path: str) -> tuple[Template, str] | None:
+    """Template of the component that declares the last field of a dotted path, and that field's name."""
+    template = root
+    *owners, last = path.split(".")
+    for piece in owners:
+        head, _, index = piece.partition("[")
+        slot = template.children.get(head)
+        if slot is None or not slot.templates:
+            return None
+        k = 0 if slot.uniform or not index else int(index.rstrip("]"))
+        template = slot.templates[k]
+    return template, last.partition("[")[0]
+
+
+def users_field(root: Template, path: str) -> str:
+    """The innermost field on a dotted path that is not declared in this package, and where; empty if all are."""
+    pieces = path.split(".")
+    for n in range(len(pieces), 0, -1):
+        found = owner_of(root, ".".join(pieces[:n]))
+        text, place = field_place(found[0].cls, found[1]) if found is not None else ("", PACKAGE)
+        if not place.startswith(PACKAGE):
+            return f"{text or pieces[n - 1]}    {place}"
+    return ""
 
 
 @contextmanager

@@ -9,9 +9,8 @@ import numpy as np
 from ..errors import DeclarationError, InitializationError
 from ..language.declarations import Declaration
 from ..language.flat_model import FlatModel
-from ..language.places import field_place
+from ..language.places import field_place, users_field
 from ..language.template import Floats, Template
-from ..passes.places import users_field
 
 SHOWN = 5
 """Parameters named in one message."""
@@ -51,7 +50,7 @@ def check_parameters(flat: FlatModel, p: Any) -> None:
             _line(flat, int(i), f" = {values[i]:.6g} lies outside its bounds [{low[i]:.6g}, {high[i]:.6g}]")
             for i in outside[:SHOWN]
         ]
-        fields = dict.fromkeys(users_field(flat, flat.parameter_name(int(i))) for i in outside[:SHOWN])
+        fields = dict.fromkeys(users_field(flat.root, flat.parameter_name(int(i))) for i in outside[:SHOWN])
         written = [f"    {field}" for field in fields if field]
         lines += ["Written in:", *written] if written else []
         raise DeclarationError("\n".join(lines))

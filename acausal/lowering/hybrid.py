@@ -11,9 +11,8 @@ import numpy as np
 
 from ..language.declarations import Kind
 from ..language.flat_model import Bools, Family, FlatModel
-from ..language.places import PACKAGE
+from ..language.places import PACKAGE, users_field
 from ..language.template import Floats, Ints
-from ..passes.places import users_field
 from ..passes.schedule import Group
 from ..passes.specialize import specialize
 from ..symbolic.expr import ONE, Expr, add, neg
@@ -103,7 +102,7 @@ class Assertion:
         """What to say if one row does not hold at time t [s]."""
         component, place = self.flat.equation_place(self.piece.rows, row)
         who = component or self.flat.model_name
-        field = users_field(self.flat, component) if component and place.startswith(PACKAGE) else ""
+        field = users_field(self.flat.root, component) if component and place.startswith(PACKAGE) else ""
         written = f"\nWritten in:\n    {field}" if field else ""
         return f"At t = {t:.9g} s the assertion of {who} ({place}) does not hold: {self.message}{written}"
 

@@ -6,26 +6,12 @@ import re
 from collections.abc import Iterable, Iterator
 
 from ..language.flat_model import FlatModel
-from ..language.places import PACKAGE, field_place
+from ..language.places import field_place, owner_of
 from ..language.template import Template
 from ..symbolic.printing import path_text
 
 SHOWN = 8
 """Lines of one kind."""
-
-
-def owner_of(root: Template, path: str) -> tuple[Template, str] | None:
-    """Template of the component that declares the last field of a dotted path, and that field's name."""
-    template = root
-    *owners, last = path.split(".")
-    for piece in owners:
-        head, _, index = piece.partition("[")
-        slot = template.children.get(head)
-        if slot is None or not slot.templates:
-            return None
-        k = 0 if slot.uniform or not index else int(index.rstrip("]"))
-        template = slot.templates[k]
-    return template, last.partition("[")[0]
 
 
 def declared(flat: FlatModel, paths: Iterable[str]) -> list[str]:
@@ -46,17 +32,6 @@ def declared(flat: FlatModel, paths: Iterable[str]) -> list[str]:
         seen.add(place)
     width = min(max((len(text) for _, text, _ in rows[:SHOWN]), default=0), 60)
     return [f"    {text or path:<{width}}    {place}" for path, text, place in rows[:SHOWN]]
-
-
-def users_field(flat: FlatModel, path: str) -> str:
-    """The innermost field on a dotted path that is not declared in this package, and where; empty if all are."""
-    pieces = path.split(".")
-    for n in range(len(pieces), 0, -1):
-        found = owner_of(flat.root, ".".join(pieces[:n]))
-        text, place = field_place(found[0].cls, found[1]) if found is not None else ("", PACKAGE)
-        if not place.startswith(PACKAGE):
-            return f"{text or pieces[n - 1]}    {place}"
-    return ""
 
 
 def connected(flat: FlatModel, components: Iterable[str]) -> list[str]:

@@ -348,15 +348,15 @@ def test_point_gravity_closes_a_circle() -> None:
 def test_names_and_choices_that_do_not_exist() -> None:
     with pytest.raises(ac.DeclarationError, match=r"World\(gravityType='Uniform'\): choose from UniformGravity"):
         ac.compile(Swing(world=mb.World(gravityType="Uniform")))
-    with pytest.raises(ac.ConnectError, match=r"nothing gives `hinge.frame_a.R`, .*: the connections lead to no root"):
+    with pytest.raises(ac.ConnectError, match=r"nothing gives `rod.frame_a.R`, .*: the connections lead to no root"):
         ac.compile(Loose())
 
 
 class Loose(Component):
-    """Joints that hang on nothing."""
+    """A rod that hangs on nothing."""
 
     world: mb.World = inner(mb.World())
-    hinge: mb.Revolute = mb.Revolute()
+    rod: mb.FixedTranslation = mb.FixedTranslation()
 
 
 @pytest.mark.parametrize("strut", [

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Component, inner, start
+from acausal import Array, Component, Equations, connect, inner, start
 from acausal.components import multibody as mb
+from acausal.components import planar
 from acausal.components.examples import assemble
 
 ZERO = (0.0, 0.0, 0.0)
@@ -89,6 +90,65 @@ def test_sequences_of_axes() -> None:
     turned = mb.Body(useQuaternions=False, sequence_angleStates=(3.0, 3.0, 1.0))
     with pytest.raises(ac.DeclarationError, match=r"\(3, 3, 1\) does not give all orientations"):
         ac.compile(assemble(world=inner(mb.World()), body=turned))
+
+
+class Forgotten(Component):
+    """A pendulum that is not hung up."""
+
+    world: mb.World = inner(mb.World())
+    hinge: mb.Revolute = mb.Revolute()
+    bob: mb.Body = mb.Body()
+
+    def equations(self) -> Equations:
+        yield connect(self.hinge.frame_b, self.bob.frame_a)
+
+
+class Chain(Component):
+    """Of the connections between the links of a chain, the last one is forgotten."""
+
+    world: mb.World = inner(mb.World())
+    hinges: Array[mb.Revolute] = Array(mb.Revolute(), 3)
+    links: Array[mb.BodyShape] = Array(mb.BodyShape(r=(1.0, 0.0, 0.0)), 3)
+
+    def equations(self) -> Equations:
+        yield connect(self.world.frame_b, self.hinges[0].frame_a)
+        yield connect(self.hinges.frame_b, self.links.frame_a)
+        yield connect(self.links[:-2].frame_b, self.hinges[1:-1].frame_a)
+
+
+class Seen(Component):
+    """A planar body that is measured against nothing."""
+
+    planarWorld: planar.PlanarWorld = inner(planar.PlanarWorld())
+    body: planar.Body = planar.Body(m=1.0, I=1.0)
+    distance: planar.Distance = planar.Distance()
+
+    def equations(self) -> Equations:
+        yield connect(self.body.frame_a, self.distance.frame_b)
+
+
+def test_a_connection_that_was_forgotten() -> None:
+    """The message is short: what is loose, where it was written, what to connect."""
+    with pytest.raises(ac.ConnectError) as error:
+        ac.compile(Forgotten())
+    first, why, written, field, advice = str(error.value).splitlines()
+    assert first == "nothing is connected to `hinge.frame_a`"
+    assert why == "    a `Revolute` acts on what is connected to `frame_a` and `frame_b`"
+    assert written == "Written in:"
+    assert "    hinge: mb.Revolute = mb.Revolute()    " in field and "test_multibody_errors.py:" in field
+    also = "nothing is connected to `world.frame_b` either"
+    assert advice == f"Try: connect(self.hinge.frame_a, ...) in `equations`; {also}"
+
+
+@pytest.mark.parametrize(("model", "loose"), [
+    (Chain(), r"`hinges\[2\].frame_a`\n    a `Revolute` acts"), (Seen(), "`distance.frame_a`\n    a `Distance` acts"),
+    (assemble("body.frame_a - spring.frame_b", world=inner(mb.World()), body=mb.Body(), spring=mb.Spring(c=1.0)),
+     "`spring.frame_a`\n    a `Spring` acts"),  # it would pull at nothing
+    (assemble(world=inner(mb.World()), sensor=mb.AbsoluteAngles()), "`sensor.frame_a`\n    a `AbsoluteAngles` acts"),
+], ids=lambda case: type(case).__name__)  # fmt: skip
+def test_loose_ends(model: Component, loose: str) -> None:
+    with pytest.raises(ac.ConnectError, match=f"nothing is connected to {loose}"):
+        ac.compile(model)
 
 
 def test_a_loop_that_cannot_be_closed() -> None:

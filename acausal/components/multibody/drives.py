@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import Equations, Parameter, Variable, Vector, connect, cross, der, dot, structural
 
 from .. import rotational
@@ -153,6 +155,7 @@ class GearConstraint(PartialTwoFrames):
     Source: Modelica.Mechanics.MultiBody.Joints.GearConstraint.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("frame_a", "frame_b", "bearing")
     stateSelect: str = "default"
     bearing: Frame = Frame()
     ratio: Parameter = Parameter(2.0, unit="1", doc="speed of the shaft at frame_a over that at frame_b")

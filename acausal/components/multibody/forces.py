@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import Component, DeclarationError, Equations, Input, Variable, Vector, conditional, cross
 
 from .frames import ZEROS, Frame, resolve1, resolve2
@@ -55,6 +57,7 @@ class PartialWorldAction(PartialResolved, partial=True):
     Source: Modelica.Mechanics.MultiBody.Interfaces.PartialOneFrame_b.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("frame_b",)
     frame_b: Frame = Frame()
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import Equations, Input, Output, Parameter, Variable, Vector, der
 
 from .frames import ZEROS, Frame, relative_rotation, resolve1, rotation_angles
@@ -207,6 +209,7 @@ class TransformRelativeVector(PartialTransform):
     Source: Modelica.Mechanics.MultiBody.Sensors.TransformRelativeVector.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("frame_a", "frame_b")
     frame_b: Frame = Frame()
 
     def equations(self) -> Equations:

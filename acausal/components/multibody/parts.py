@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import Component, DeclarationError, Equations, Parameter, Vector, branch, choose, cross, rooted
 from acausal.language.overdetermined import Choice
 
@@ -30,6 +32,7 @@ class PartialTwoFrames(Component, partial=True):
     Source: Modelica.Mechanics.MultiBody.Interfaces.PartialTwoFrames.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("frame_a", "frame_b")
     frame_a: Frame = Frame()
     frame_b: Frame = Frame()
 
@@ -45,6 +48,7 @@ class FixedTranslation(PartialTwoFrames):
     Source: Modelica.Mechanics.MultiBody.Parts.FixedTranslation.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ()
     r: Vector = Vector(Parameter(unit="m", doc="from frame_a to frame_b, resolved in frame_a"), ZEROS)
 
     def equations(self) -> Equations:
@@ -98,6 +102,7 @@ class FixedRotation(PartialTwoFrames):
     Source: Modelica.Mechanics.MultiBody.Parts.FixedRotation.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ()
     rotationType: str = "RotationAxis"
     sequence: tuple[float, ...] = (1.0, 2.0, 3.0)
     r: Vector = Vector(Parameter(unit="m", doc="from frame_a to frame_b, resolved in frame_a"), ZEROS)

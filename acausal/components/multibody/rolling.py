@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import (
     Component,
     Equations,
@@ -47,6 +49,7 @@ class RollingWheelJoint(Component):
     Source: Modelica.Mechanics.MultiBody.Joints.RollingWheel.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("frame_a",)
     stateSelect: str = "always"
     frame_a: Frame = Frame()
     radius: Parameter = Parameter(0.3, unit="m", min=0.0, doc="radius of the wheel")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import Equations, Output, Variable, Vector, branch, cross, der, dot, norm
 
 from .forces import PartialResolved
@@ -15,6 +17,7 @@ class PartialAbsoluteSensor(PartialResolved, partial=True):
     Source: Modelica.Mechanics.MultiBody.Sensors.Internal.PartialAbsoluteSensor.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("frame_a",)
     resolveInFrame: str = "frame_a"
     frame_a: Frame = Frame()
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import (
     Component,
     Connector,
@@ -76,6 +78,7 @@ class PartialTwoFrames(Component, partial=True):
     Source: PlanarMechanics.Interfaces.PartialTwoFrames.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("frame_a", "frame_b")
     frame_a: Frame = Frame()
     frame_b: Frame = Frame()
 
@@ -216,6 +219,7 @@ class PartialAbsoluteSensor(PartialResolved, partial=True):
     Source: PlanarMechanics.Sensors.Internal.PartialAbsoluteSensor.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("frame_a",)
     resolveInFrame: str = "frame_a"
     frame_a: Frame = Frame()
 

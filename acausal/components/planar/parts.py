@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import Component, Equations, Parameter, Variable, Vector, der
 
 from .interfaces import Frame, PartialMass, PartialTwoFrames, resolve1
@@ -40,6 +42,7 @@ class FixedTranslation(PartialTwoFrames):
     Source: PlanarMechanics.Parts.FixedTranslation.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ()
     r: Vector = Vector(Parameter(unit="m", doc="position of frame b in frame a"), (1.0, 0.0), size=2)
 
     def equations(self) -> Equations:
@@ -58,6 +61,7 @@ class FixedRotation(PartialTwoFrames):
     Source: PlanarMechanics.Parts.FixedRotation.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ()
     alpha: Parameter = Parameter(0.0, unit="rad", doc="angle of frame b against frame a")
 
     def equations(self) -> Equations:

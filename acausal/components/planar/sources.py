@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import Equations, Input, Parameter, Vector, abs, der, noevent, vector
 
 from .interfaces import Frame, PartialResolved, PartialTwoFrames
@@ -22,6 +24,7 @@ class WorldForce(PartialResolved):
     Source: PlanarMechanics.Sources.WorldForce.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("frame_b",)
     resolveInFrame: str = "frame_b"
     frame_b: Frame = Frame()
     force: Vector = Vector(Input(doc="forces in x and y [N], and torque [N.m]"))
@@ -77,6 +80,7 @@ class QuadraticSpeedDependentForce(PartialResolved):
     Source: PlanarMechanics.Sources.QuadraticSpeedDependentForce.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("frame_b",)
     frame_b: Frame = Frame()
     F_nominal: Parameter = Parameter(0.0, unit="N", doc="force at v_nominal, braking where negative")
     v_nominal: Parameter = Parameter(1.0, unit="m/s", min=1e-15, doc="nominal speed")
