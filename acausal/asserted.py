@@ -112,4 +112,14 @@ def _broken(
         holds = np.broadcast_to(computed[id(item.piece.forms[0])], (rows.size, len(t))) != 0.0
         if not holds.all():
             at = int(np.argmax(~holds.all(axis=0)))
-            yield item.text(float(t[at]), int(np.argmax(~holds[:, at]))), item.level
+            row = int(np.argmax(~holds[:, at]))
+            yield item.text(float(t[at]), row) + _given(item, row, p), item.level
+
+
+def _given(item: Assertion, row: int, p: Floats) -> str:
+    """The parameters of a condition that has no variables, with their values."""
+    rows = item.piece.rows
+    if rows.var_rows.shape[1]:
+        return ""
+    numbers = dict.fromkeys(rows.par_rows[row].tolist())
+    return "\nwith " + ", ".join(f"{item.flat.parameter_name(k)} = {p[k]:.6g}" for k in numbers) if numbers else ""

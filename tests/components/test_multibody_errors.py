@@ -6,9 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import acausal as ac
 from acausal import Array, Component, Equations, connect, inner, start
+from acausal.asserted import check_given
 from acausal.components import multibody as mb
 from acausal.components import planar
 from acausal.components.examples import assemble
@@ -74,6 +76,42 @@ def test_gravity_without_direction() -> None:
 def test_what_moves_without_mass(model: Component, named: str) -> None:
     with pytest.raises(ac.StructureError, match=named):
         ac.compile(model)
+
+
+def tensor(moments: tuple[float, float, float], shares: float = 1.0) -> dict[str, float]:
+    """An inertia tensor with these principal moments, in a frame that is turned."""
+    turned = Rotation.from_euler("xyz", [0.4, -0.7, 1.1]).as_matrix()
+    I = turned @ np.diag(moments) @ turned.T * shares  # noqa: E741
+    return {f"I_{i}{j}": float(I[i - 1, j - 1]) for i, j in ((1, 1), (2, 2), (3, 3), (2, 1), (3, 1), (3, 2))}
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_a_negative_principal_moment(engine: Any) -> None:
+    system = ac.compile(pendulum(mb.Revolute(), mb.Body(r_CM=(1.0, 0.0, 0.0), I_11=1.0, I_22=1.0, I_33=1.0, I_21=1.1)))
+    text = (
+        r"At t = 0 s the assertion of body \(.*bodies.py:\d+ \(Body\)\) does not hold: a principal moment of the "
+        r"inertia tensor is negative\nwith .*body.I_11 = 1, .*body.I_21 = 1.1"
+    )
+    with pytest.raises(ac.SimulationError, match=text):
+        system.simulate(1.0, engine=engine)
+    system.simulate(0.1, parameters={"body.I_21": 1.0}, engine=engine)
+
+
+@pytest.mark.parametrize("size", [1e-9, 1.0, 1e6])
+@pytest.mark.parametrize(("moments", "sound"), [
+    ((1.0, 2.0, 3.0), True), ((0.0, 2.0, 2.0), True), ((0.0, 0.0, 1.0), True), ((0.0, 0.0, 0.0), True),
+    ((-1e-12, 1.0, 1.0), True),  # as rounding leaves them
+    ((1.0, 1.0, 9.0), True),  # of no body, but Modelica has it too, where moments are left at their defaults
+    ((-1e-6, 1.0, 1.0), False), ((-1e-6, 0.0, 1.0), False), ((-1e-6, -1e-6, 1.0), False), ((-1.0, -1.0, 1.0), False),
+])  # fmt: skip
+def test_which_inertia_tensors_are_sound(moments: tuple[float, float, float], sound: bool, size: float) -> None:
+    system = ac.compile(assemble(world=inner(mb.World()), body=mb.Body()))
+    p = system.program.evaluate({f"body.{k}": v for k, v in tensor(moments, size).items()}, np)
+    if sound:
+        check_given(system, 0.0, p)
+        return
+    with pytest.raises(ac.SimulationError, match="a principal moment of the inertia tensor is negative"):
+        check_given(system, 0.0, p)
 
 
 @pytest.mark.parametrize("engine", ["native", "diffrax"])

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from acausal import (
     Equations,
+    Expr,
     Matrix,
     Parameter,
     Variable,
     Vector,
+    assert_,
     choose,
     cross,
     defining,
@@ -15,6 +17,7 @@ from acausal import (
     dot,
     is_root,
     matrix,
+    max,
     potential_root,
     root,
     structural,
@@ -33,6 +36,22 @@ from .frames import (
 )
 from .world import Grounded
 
+NEGATIVE = 1e-9
+"""A moment of inertia may be below zero by this part of the largest one: numbers are given with so many digits."""
+ROUNDED = 1e-14
+"""Rounding error of the determinant of an inertia tensor, relative to the cube of its largest moment."""
+
+
+def positive_semidefinite(I: Matrix) -> Expr:  # noqa: E741 (its symbol)
+    """Whether no eigenvalue of a symmetric matrix (3, 3) is negative, to rounding: no principal minor is."""
+    (a, _, _), (d, b, _), (e, f, c) = I.rows()
+    largest = max(a, b, c)
+    x, y, z = (moment + NEGATIVE * largest for moment in (a, b, c))
+    determinant = x * (y * z - f**2) - d * (d * z - f * e) + e * (d * f - y * e)
+    moments = (x >= 0.0) & (y >= 0.0) & (z >= 0.0)
+    pairs = (x * y >= d**2) & (y * z >= f**2) & (x * z >= e**2)
+    return moments & pairs & (determinant >= -ROUNDED * largest**3)
+
 
 class Body(Grounded):
     """Rigid body with one frame; its mass, centre of mass and inertia tensor.
@@ -45,6 +64,8 @@ class Body(Grounded):
     `Q` (scalar part last), integrated by ``dQ/dt = G(Q)' w/2``; it needs no length of one, so nothing is singular and
     nothing drifts apart, however often the body turns. Without `useQuaternions` it is the angles `phi` about the axes
     of `sequence_angleStates`, which are singular where the second one lays the third axis along the first.
+
+    The inertia tensor must not have a negative principal moment.
 
     >>> body = Body(I_11=1.0, I_22=2.0, I_33=3.0, w_0_fixed=True, w_0_start=(0.0, 0.5, 0.0))
     >>> model = assemble(world=ac.inner(World(gravityType="NoGravity")), body=body)
@@ -109,6 +130,7 @@ class Body(Grounded):
         yield self.frame_a.f == (resolve2(R, self.a_0 - self.g_0) + cross(z, r_CM) + cross(w, cross(w, r_CM))) * self.m
         inertia = self.inertia()
         yield self.frame_a.t == inertia @ z + cross(w, inertia @ w) + cross(r_CM, self.frame_a.f)
+        yield assert_(positive_semidefinite(inertia), "a principal moment of the inertia tensor is negative")
 
     def orientation(self) -> Equations:
         """The orientation of a root."""
