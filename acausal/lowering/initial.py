@@ -30,8 +30,9 @@ ACCEPTED = 1e-6
 method leaves much less; what is left is the rounding of start values that are given twice, as all coordinates of a
 mechanism."""
 HOMOTOPY_STEPS = 20
-ASIDE = (1e-3, 1e-3, 0.1, 0.1, 1.0, 1.0)
-"""Distances from the guess, in nominal values, of further attempts."""
+ASIDE = (1e-3, -1e-3, 0.1, -0.1, 1.0, -1.0)
+"""Largest distances from the guess, in nominal values, of further attempts: upwards first, as most quantities that have
+a square are positive."""
 SATISFIED = 1e-9
 """Relative residual from which no other attempt is made."""
 SMALLEST_STEP = 1e-15
@@ -158,7 +159,9 @@ def solve_initial(
         nominal = np.concatenate([nominal, low.w_nominal])
         ease = np.concatenate([ease, EASE_ALGEBRAIC * low.w_nominal])
         y_start = jnp.concatenate([y_start, w_start])
-    y, left = _gauss_newton(residual, y_start, jnp.asarray(ease), jnp.asarray(nominal), x_start)
+    columns = np.concatenate([free, low.n_x + np.arange(low.n_w)]) if together else free
+    away = aside(columns) * nominal
+    y, left = _gauss_newton(residual, y_start, jnp.asarray(ease), jnp.asarray(nominal), jnp.asarray(away), x_start)
     x0 = x_start.at[free].set(y[: len(free)]) if len(free) else x_start
     if together:
         return x0, y[len(free) :], left
@@ -238,6 +241,23 @@ def _start_of(problem: InitialProblem, ids: Ints, starts: Any, xp: Any) -> Any:
     return xp.where(xp.isnan(values), 0.0, values)
 
 
+def aside(columns: Ints) -> Floats:
+    """How far from the guess the further attempts begin, in nominal values: (attempts, columns).
+
+    Each variable, by its number among states and algebraic unknowns, has the same numbers in every engine (`ac_beside`
+    in initialize.h), so that all find the same root: xorshift, Marsaglia (2003), J. Statistical Software 8:14.
+    """
+    out = np.zeros((len(ASIDE), int(columns.max(initial=-1)) + 1))
+    for attempt, size in enumerate(ASIDE):
+        state = 88172645463325252 + attempt
+        for j in range(out.shape[1]):
+            state ^= state << 13 & 0xFFFFFFFFFFFFFFFF
+            state ^= state >> 7
+            state ^= state << 17 & 0xFFFFFFFFFFFFFFFF
+            out[attempt, j] = size * (state >> 11) / 2.0**53
+    return out[:, columns]
+
+
 def _algebraic(low: Lowered, t0: Any, x: Any, w_start: Any, p: Any) -> Any:
     """Algebraic unknowns (n_w,) at given states; where Newton's method fails from the guess, all equations together."""
     import jax
@@ -250,8 +270,11 @@ def _algebraic(low: Lowered, t0: Any, x: Any, w_start: Any, p: Any) -> Any:
 
     def together(near: Any) -> Any:
         del near
-        scale = jnp.asarray(EASE_ALGEBRAIC * low.w_nominal)
-        return _search(lambda w: low.derivatives(at[0], at[1], w, at[2])[1], guess, scale, jnp.asarray(low.w_nominal))
+        nominal = jnp.asarray(low.w_nominal)
+        away = aside(low.n_x + np.arange(low.n_w)) * nominal
+        return _search(
+            lambda w: low.derivatives(at[0], at[1], w, at[2])[1], guess, EASE_ALGEBRAIC * nominal, nominal, away
+        )
 
     near = low.solve_algebraic(at[0], at[1], guess, at[2])
     near = jax.lax.cond(jnp.isfinite(near).all(), lambda near: near, together, near)
@@ -282,7 +305,7 @@ class _Search(NamedTuple):
     best_left: Any
 
 
-def _search(system: Any, start: Any, scale: Any, nominal: Any) -> Any:
+def _search(system: Any, start: Any, scale: Any, nominal: Any, away: Any) -> Any:
     """Root of `system` near `start`: steps of least norm, halved until the residual falls, as `root_near` takes them.
 
     Where they fail, the conditions are turned on gradually, then it begins beside the guess. One loop does it all, so
@@ -292,6 +315,7 @@ def _search(system: Any, start: Any, scale: Any, nominal: Any) -> Any:
         system: y to residuals (m,).
         start: guess (n,).
         scale, nominal: scales in which the unknowns are moved, and their typical sizes (n,).
+        away: how far from the guess the last attempts begin, (attempts, n).
     """
     import jax
     import jax.numpy as jnp
@@ -299,8 +323,6 @@ def _search(system: Any, start: Any, scale: Any, nominal: Any) -> Any:
     value_and_slope = jax.jacfwd(lambda y: (lambda r: (r, r))(system(y)), has_aux=True)
     whole = system(start)
     whole = jnp.where(jnp.isfinite(whole).all(), whole, 0.0)
-    random = np.random.default_rng(1)
-    aside = jnp.asarray([size * random.uniform(-1, 1, start.shape) for size in ASIDE]) * nominal
     first_aside = HOMOTOPY_STEPS + 1
 
     def share(attempt: Any) -> Any:
@@ -329,7 +351,7 @@ def _search(system: Any, start: Any, scale: Any, nominal: Any) -> Any:
         best = jnp.where(counts, state.y, state.best)
         attempt = state.attempt + 1
         begin = jnp.where(attempt == 1, start, state.y)
-        begin = jnp.where(attempt >= first_aside, start + aside[attempt - first_aside], begin)
+        begin = jnp.where(attempt >= first_aside, start + away[attempt - first_aside], begin)
         return state._replace(
             y=begin, factor=jnp.zeros(()), tried=jnp.zeros((), int), attempt=attempt, best=best,
             best_left=jnp.where(counts, state.left, state.best_left),
@@ -350,7 +372,9 @@ def _search(system: Any, start: Any, scale: Any, nominal: Any) -> Any:
     return jax.lax.while_loop(again, body, state).best
 
 
-def _gauss_newton(residual: Any, y_start: Any, scale: Any, nominal: Any, context: Any) -> tuple[Any, Any]:
+def _gauss_newton(
+    residual: Any, y_start: Any, scale: Any, nominal: Any, away: Any, context: Any
+) -> tuple[Any, Any]:
     """Nearest root to `y_start`, and its residual (relative to the scale of each equation).
 
     The iteration runs without derivatives; one more step outside of it carries them: at a root its derivative is that
@@ -365,7 +389,7 @@ def _gauss_newton(residual: Any, y_start: Any, scale: Any, nominal: Any, context
         return residual(y, frozen)
 
     start = jax.lax.stop_gradient(y_start)
-    y = jax.lax.stop_gradient(_search(f, start, scale, nominal))
+    y = jax.lax.stop_gradient(_search(f, start, scale, nominal, away))
     j = jax.lax.stop_gradient(jax.jacfwd(f)(y)) * scale
     row = _row_size(j)
     pseudo = jnp.linalg.pinv(j / row[:, None], rtol=1e-11)

@@ -16,7 +16,7 @@ from scipy.sparse.linalg import splu
 
 from ..language.template import Floats, Ints
 from .conditions import Conditions
-from .initial import EASE_ALGEBRAIC, InitialProblem, given_starts
+from .initial import EASE_ALGEBRAIC, InitialProblem, aside, given_starts
 
 ITERATIONS = 100
 HOMOTOPY_STEPS = 20
@@ -244,11 +244,10 @@ def _homotopy(system: _Part, z: Floats) -> Floats:
 
 def _beside(system: _Part, z: Floats) -> Floats:
     """The root from guesses beside the given one, where a slope may not vanish that vanishes there."""
-    random = np.random.default_rng(1)
     best, least = z, np.inf
-    for size in (1e-3, 1e-3, 0.1, 0.1, 1.0, 1.0):
+    for away in aside(system.columns):
         near = z.copy()
-        near[system.columns] += size * system.nominal[system.columns] * random.uniform(-1, 1, len(system.columns))
+        near[system.columns] += system.nominal[system.columns] * away
         found = root_near(system, near)
         left = float(np.max(np.nan_to_num(system.left(found), nan=np.inf), initial=0.0))
         if left < least:

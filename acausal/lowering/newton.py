@@ -40,8 +40,9 @@ def newton_root(residual: Callable[[Any], Any], guess: Any, scale: Any) -> Any:
 
         def step(state: Any) -> Any:
             y, r, done, k = state
-            delta = -_solve(jacobian(y), r)
-            delta = jnp.where(jnp.isfinite(delta), delta, 0.0)
+            newton = -_solve(jacobian(y), r)
+            there = jnp.isfinite(newton)  # none where the Jacobian is singular, which is no convergence
+            delta = jnp.where(there, newton, 0.0)
             size = norm(r)
 
             def damp(s: Any) -> Any:
@@ -61,7 +62,7 @@ def newton_root(residual: Callable[[Any], Any], guess: Any, scale: Any) -> Any:
             factor, _, _ = jax.lax.while_loop(worse, one, (full, norm(residual(y + delta)), 0))
             moved = factor[:, None] * delta
             y = jnp.where(done[:, None], y, y + moved)
-            small = (jnp.abs(delta) <= 1e-13 * jnp.maximum(jnp.abs(y), scale)).all(axis=1)
+            small = (there & (jnp.abs(delta) <= 1e-13 * jnp.maximum(jnp.abs(y), scale))).all(axis=1)
             r = residual(y)
             return y, r, done | small | (norm(r) == 0.0), k + 1
 

@@ -16,6 +16,10 @@ from .lowered import Lowered
 
 MOVED = 0.1
 """How far the corrector may move, relative to the size of an unknown."""
+LARGEST = 500
+"""Up to so many unknowns their Jacobian is looked at."""
+SINGULAR = 1e-13
+"""Smallest singular value relative to the largest, after scaling, of a Jacobian that is singular but for rounding."""
 SMALLEST = 2.0**-10
 """Smallest step relative to the distance of two output times; taken wherever the corrector goes, as across a jump."""
 
@@ -32,6 +36,23 @@ def follow_in_time(lowered: Lowered, t0: Array, t: Array, w0: Array, p: Array) -
         return (target, jnp.where(good, found, w)), found
 
     return jax.lax.scan(step, (t0, w0), t)[1]
+
+
+def undetermined(lowered: Lowered, t: Array, w: Array, p: Any) -> Array:
+    """Whether the equations do not determine the unknowns around a solution `w` of theirs: a boolean.
+
+    Newton's method shows it by the way that it fails to converge; where it begins at a solution it has nothing to do.
+    """
+    if not 0 < w.shape[0] <= LARGEST:
+        return jnp.asarray(False)
+    slope = jax.jacfwd(lambda w: lowered.derivatives(t, jnp.zeros(0), w, p)[1])(jax.lax.stop_gradient(w))
+    slope = slope * jnp.asarray(lowered.w_nominal, float)
+    for axis in (1, 0):
+        size = jnp.max(jnp.abs(slope), axis=axis, keepdims=True)
+        slope = slope / jnp.where(size > 0, size, 1.0)
+    slope = jnp.where(jnp.isfinite(slope).all(), slope, jnp.eye(w.shape[0]))
+    sigma = jnp.linalg.svd(slope, compute_uv=False)
+    return sigma[-1] <= SINGULAR * sigma[0]
 
 
 def followed(lowered: Lowered, begin: Array, end: Array, w: Array, p: Any) -> Array:

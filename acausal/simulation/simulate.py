@@ -17,7 +17,7 @@ from jax import Array
 from acausal.errors import SimulationError
 
 from .cache import cache_of
-from .continuation import follow_in_time
+from .continuation import follow_in_time, undetermined
 from .controller import ROUNDING, ErrorControl
 from .failure import explain
 from .inputs import drive
@@ -359,6 +359,9 @@ def _without_states(
     none = jnp.asarray(0)
     shown = slice(None) if points is None else slice(None, -1)
     code = jnp.where(jnp.isfinite(w).all(), 0, -1)
+    if lowered.n_w:  # at a single time they may lose their hold in passing
+        lost = undetermined(lowered, t0, w0, p) & undetermined(lowered, t1, w[-1], p)
+        code = jnp.where(lost, _RESULTS.index("singular"), code)
     return t[shown], x[shown], w[shown], [none, none, none], code, (t1, x[-1], w[-1]), None
 
 

@@ -149,11 +149,11 @@ static void ac_homotopy(ac_work *w, ac_initial *a, const ac_given *given, double
 
 /* From a guess beside z, where a slope may not vanish that vanishes there. */
 static void ac_beside(ac_work *w, ac_initial *a, const ac_given *given, double *z, int attempt) {
-    static const double sizes[6] = {1e-3, 1e-3, 0.1, 0.1, 1.0, 1.0};
+    static const double sizes[6] = {1e-3, -1e-3, 0.1, -0.1, 1.0, -1.0}; /* upwards first, as in initial.py */
     unsigned long long state = 88172645463325252ULL + (unsigned)attempt; /* Marsaglia (2003), xorshift */
     for (int j = 0; j < AC_N; j++) {
         state ^= state << 13, state ^= state >> 7, state ^= state << 17;
-        const double uniform = (double)(state >> 11) / 4503599627370496.0 - 1.0;
+        const double uniform = (double)(state >> 11) / 9007199254740992.0;
         if (a->moves[j]) z[j] += sizes[attempt] * ac_nominal[j] * uniform;
     }
     ac_root_near(w, a, given, z);
