@@ -5,10 +5,17 @@ null vector u (over parameters and lower derivatives) gives the equation ``sum u
 derivatives cancel. Rows are differentiated c_i times; the combination takes them ``c_i - min c`` times (Tan, Nedialkov
 and Pryce 2017, section 3). The support of u is a smallest set of dependent rows, so u is found by eliminating a few
 rows of expressions; whether an expression is zero is decided by its values at points in general position.
+
+Where u holds the highest derivatives themselves, as for ``x + exp(-x' - y y'') = f`` beside the derivative of
+``x + y y' = g``, no linear combination will do. The equations are then functions of fewer combinations of the
+derivatives than there are equations; if all but one can be solved for a derivative each (by one-to-one operators), what
+is left of the last one is free of them. Tan, Nedialkov and Pryce treat such systems by *expression substitution*
+(section 4), with a new variable for each combination; here none is needed.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -23,6 +30,7 @@ from ..symbolic.collect import collected
 from ..symbolic.differentiate import partial
 from ..symbolic.expr import MINUS_ONE, ONE, ZERO, Expr, add, const, div, mul, neg, par, var
 from ..symbolic.gradient import Sampler
+from ..symbolic.isolate import Solvability, invert, isolate
 from ..symbolic.traverse import leaves, postorder, substitute
 from .places import context
 from .structure import IndexReduced
@@ -270,7 +278,7 @@ class _Group:
         return out or None
 
     def _replacement(self, circuit: list[int]) -> Replacement | bool:
-        """The combination; True if it would hold highest derivatives, False if the rows are independent after all."""
+        """The combination; True if there is none without highest derivatives, False if the rows are independent."""
         differentiated = {i: len(self.first.chains[i]) - 1 for i in circuit}
         lift = min(differentiated.values())
         gone = self._lowered(range(self.first.size), lift)
@@ -291,9 +299,84 @@ class _Group:
                 rating = worst, len(postorder((residual,)))
                 if best is None or rating < best[0]:
                     best = rating, last, list(vector), residual
+        if best is None and dependent:
+            best = self._eliminated(circuit, [i for i in circuit if differentiated[i] == lift], lift, gone)
         if best is None:
             return dependent
         return self._made(best[3], best[1], best[2])
+
+    def _eliminated(
+        self, circuit: list[int], lasts: list[int], lift: int, gone: set[int]
+    ) -> tuple[tuple[int, int], int, list[int], Expr] | None:
+        """One of the rows `lasts` with the unknowns `gone` replaced by what the other rows give for them."""
+        best: tuple[tuple[int, int], int, list[int], Expr] | None = None
+        for last in lasts:
+            rows = {i: self.forms[self.first.chains[i][lift]] for i in circuit}
+            worst = self._substituted(rows, last, gone)
+            residual = None if worst is None else self._free(rows[last], circuit, gone)
+            if worst is not None and residual is not None:
+                rating = worst, len(postorder((residual,)))
+                if best is None or rating < best[0]:
+                    best = rating, last, circuit, residual
+        return best
+
+    def _substituted(self, rows: dict[int, Expr], last: int, gone: set[int]) -> int | None:
+        """Solve each row but `last` for what it shares with others and put it there, in place.
+
+        That is one of the unknowns `gone`, or a sum of terms with them. Returns the worst solvability; None if it fails.
+        """
+        active, worst = [i for i in rows if i != last], 0
+        while active:
+            found = [
+                (*one, i) for i in active for one in self._solved(rows[i], [rows[k] for k in (*active, last)], gone)
+            ]  # fmt: skip
+            if not found:
+                return None
+            solvability, _, target, solution, p = min(found, key=lambda one: one[:2])
+            worst = max(worst, solvability)
+            active.remove(p)
+            for i in (*active, last):
+                rows[i] = substitute(rows[i], {target: solution})
+        return worst
+
+    def _solved(self, row: Expr, rows: list[Expr], gone: set[int]) -> list[tuple[int, int, Expr, Expr]]:
+        """(Solvability, rank, what the row is solved for, what it is)."""
+        found: list[tuple[int, int, Expr, Expr]] = []
+        for rank, u in enumerate(sorted({leaf.value for leaf in leaves(row, op="var")} & gone)):
+            one = isolate(row, var(u))
+            if one.solution is not None and (self.value(one.coefficient) != 0).all():
+                found.append((int(one.solvability), rank, var(u), one.solution))
+        if found:
+            return found
+        often = Counter(id(node) for other in rows for node in postorder((other,)))
+        for rank, node in enumerate(reversed(postorder((row,))[:-1])):
+            held = {leaf.value for leaf in leaves(node, op="var")} & gone
+            if held and often[id(node)] > 1 and (solution := invert(row, node, ranges=True)) is not None:
+                found.append((int(Solvability.NONLINEAR), rank, node, solution))
+        return found
+
+    def _free(self, residual: Expr, involved: list[int], gone: set[int]) -> Expr | None:
+        """A residual that does not depend on the unknowns `gone`, written without them; None if it does depend.
+
+        Points at which it has no value, as what is under a logarithm is negative there, say nothing.
+        """
+        terms = residual.args if residual.op == "add" else (residual,)
+        whole, size = self.value(residual), sum(np.abs(self.value(term)) for term in terms)
+        for anything in (ZERO, ONE, MINUS_ONE):
+            try:
+                written = collected(substitute(residual, {var(z): anything for z in gone}))
+            except ZeroDivisionError:
+                continue
+            value = self.value(written)
+            known = np.isfinite(value) & np.isfinite(whole)
+            if not known.any(axis=0).all():
+                continue
+            if (np.abs(value - whole) > CHANGED * size)[known].any():
+                return None
+            if (np.abs(value) <= ZERO_BELOW * size)[known].all():
+                raise self._repetition(involved)
+            return written
+        return None
 
     def _combination(self, vector: dict[int, Expr], lift: int, gone: set[int]) -> Expr | None:
         """``sum u_i f_i`` without the unknowns `gone`, which it does not depend on; None if it cannot be written."""

@@ -3,12 +3,24 @@
 from __future__ import annotations
 
 import enum
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from .differentiate import partial
-from .expr import ZERO, Expr, add, div, neg
+from .expr import ONE, ZERO, Expr, add, const, div, make, mul, neg, power
 from .operators import OPERATORS
 from .traverse import contains, leaves, postorder, substitute
+
+LEFT_INVERSES: dict[str, Callable[[Expr], Expr]] = {
+    "exp": lambda y: make("log", (y,)),
+    "log10": lambda y: power(const(10.0), y),
+    "sqrt": lambda y: mul(y, y),
+    "asin": lambda y: make("sin", (y,)),
+    "acos": lambda y: make("cos", (y,)),
+    "atan": lambda y: make("tan", (y,)),
+    "tanh": lambda y: mul(const(0.5), make("log", (div(add(ONE, y), add(ONE, neg(y))),))),
+}
+"""x from y = f(x), for functions whose range is not all numbers: where it is left, there is no x."""
 
 
 class Solvability(enum.IntEnum):
@@ -42,7 +54,7 @@ def isolate(residual: Expr, unknown: Expr) -> Isolated:
             return Isolated(None, slope, Solvability.NONLINEAR)
         rest = substitute(residual, {unknown: ZERO})
         return Isolated(_quotient(rest, slope), slope, _class_of(slope))
-    solution = _invert(residual, unknown)
+    solution = invert(residual, unknown)
     if solution is None:
         return Isolated(None, slope, Solvability.NONLINEAR)
     return Isolated(solution, slope, Solvability.INVERTIBLE)
@@ -61,8 +73,11 @@ def _class_of(slope: Expr) -> Solvability:
     return Solvability.PARAMETER if kinds <= {"par"} else Solvability.VARIABLE
 
 
-def _invert(residual: Expr, unknown: Expr) -> Expr | None:
-    """Peel one-to-one operators off the one term that holds the unknown."""
+def invert(residual: Expr, unknown: Expr, *, ranges: bool = False) -> Expr | None:
+    """Peel one-to-one operators off the one term that holds the unknown (a leaf or any node).
+
+    With `ranges` also those that do not take all values: what comes out holds wherever ``residual == 0`` does.
+    """
     node, other = residual, ZERO  # invariant: node == other
     while node is not unknown:
         holding = [i for i, a in enumerate(node.args) if contains(a, unknown)]
@@ -77,8 +92,13 @@ def _invert(residual: Expr, unknown: Expr) -> Expr | None:
             if i == 1 and other is ZERO:  # a quotient is zero for no finite denominator
                 return None
             other = other * node.args[1] if i == 0 else div(node.args[0], other)
+        elif ranges and node.op == "pow" and i == 0 and node.args[1].op == "const" and node.args[1].value % 2 == 1:
+            root = power(make("abs", (other,)), const(1 / node.args[1].value))
+            other = mul(make("sign", (other,)), root)
         else:
             inverse = OPERATORS[node.op].inverse if node.op in OPERATORS else None
+            if inverse is None and ranges:
+                inverse = LEFT_INVERSES.get(node.op)
             if inverse is None:
                 return None
             other = inverse(other)

@@ -296,7 +296,7 @@ def test_coefficients_with_the_derivatives_themselves() -> None:
         y: Variable = Variable(start=1.0)
 
         def equations(self) -> Equations:
-            yield (der(self.x) + der(self.y)) ** 3 + self.x == 2
+            yield (der(self.x) + der(self.y)) ** 2 + self.x == 2
             yield ac.sin(der(self.x) + der(self.y)) + self.y == 1
 
     with pytest.raises(StructureError, match="new variable"):
