@@ -150,7 +150,7 @@ def _passes(
         with_start[assignment.targets] = True
     problem = initial_problem(reduced, lowered, initial, with_start)
     stages = Stages(flat, reduced, low_index, schedule, counts, clock.seconds)
-    return System(stages, program, lowered, problem, written, make_hybrid(flat, *extended))
+    return System(stages, program, lowered, problem, written, make_hybrid(flat, *extended, schedule))
 
 
 def located_twin(system: System) -> System:

@@ -13,7 +13,8 @@ from ..language.declarations import Kind
 from ..language.flat_model import Bools, Family, FlatModel
 from ..language.places import PACKAGE, users_field
 from ..language.template import Floats, Ints
-from ..passes.schedule import Group
+from ..passes.impulses import jumping, terms_and_slopes
+from ..passes.schedule import Group, Schedule
 from ..passes.specialize import specialize
 from ..symbolic.expr import ONE, Expr, add, neg
 from ..symbolic.traverse import evaluate_in_order, leaves, postorder
@@ -107,6 +108,21 @@ class Assertion:
         return f"At t = {t:.9g} s the assertion of {who} ({place}) does not hold: {self.message}{written}"
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Jump:
+    """Equations that have been differentiated and hold what changes at events: `n_terms` forms are their terms."""
+
+    piece: Piece
+    n_terms: int
+
+    def size(self, point: Point, nominal: Floats) -> tuple[Floats, Floats]:
+        """How far each equation is from holding at a point, and how large that may be called: both (n,)."""
+        values = self.piece.values(point)
+        terms, slopes = values[: self.n_terms], values[self.n_terms :]
+        typical = [np.abs(s) * nominal[v] for s, v in zip(slopes, self.piece.rows.var_rows.T, strict=True)]
+        return np.abs(sum(terms)), sum(map(np.abs, terms)) + np.max(typical, axis=0, initial=0.0)
+
+
 @dataclass(eq=False)
 class Hybrid:
     """How the slots of a model are determined, and what happens at its events.
@@ -114,6 +130,7 @@ class Hybrid:
     Attributes:
         flat: the model, for names.
         first: number of the first slot among the parameters.
+        jumps: differentiated equations that may jump: terms and slopes of their residuals, and their row numbers.
         closures: groups of the schedule that something needs, by what that is; filled when they are first asked for.
     """
 
@@ -129,6 +146,7 @@ class Hybrid:
     asserts: list[Assertion]
     ends: list[tuple[Piece, str]]
     roots: Roots
+    jumps: list[Jump]
     texts: dict[int, str] = field(default_factory=dict[int, str])
     closures: dict[str, list[Group]] = field(default_factory=dict[str, list[Group]])
 
@@ -141,8 +159,8 @@ class Hybrid:
     def only_modes(self) -> bool:
         """Whether nothing can happen at an event but that conditions on what moves switch their modes."""
         others = (
-            self.floors, self.pres, self.triggers, self.samples, self.reinits, self.asserts, self.ends
-        )  # fmt: skip
+            self.floors, self.pres, self.triggers, self.samples, self.reinits, self.asserts, self.ends, self.jumps
+        )
         return self.roots.count > 0 and not any(others) and not any(self.following)
 
     @property
@@ -247,7 +265,7 @@ class Point:
         return [values[id(form)] for form in piece.forms]
 
 
-def make_hybrid(flat: FlatModel, representative: Ints, sign: Ints) -> Hybrid | None:
+def make_hybrid(flat: FlatModel, representative: Ints, sign: Ints, schedule: Schedule) -> Hybrid | None:
     """Slots and actions over the reduced variables; None for a model without events."""
     slots = flat.slots
     if not slots.count and not flat.actions:
@@ -278,8 +296,11 @@ def make_hybrid(flat: FlatModel, representative: Ints, sign: Ints) -> Hybrid | N
     roots = Roots(families, np.concatenate([none, *root_slots]), np.concatenate([none, *root_strict]).astype(bool))
     hybrid = Hybrid(
         flat, flat.n_par + len(flat.inputs), groups["relation"], strict, groups["floor"], groups["pre"],
-        groups["triggered"], groups["sample"], [], [], [], roots,
+        groups["triggered"], groups["sample"], [], [], [], roots, [],
     )  # fmt: skip
+    for family, rows in jumping(schedule):
+        forms, count = terms_and_slopes(family)
+        hybrid.jumps.append(Jump(Piece(forms, family, rows), count))
     for family in specialize(flat.actions, representative, sign):
         _action(hybrid, family)
     return hybrid

@@ -323,7 +323,7 @@ class _Group:
     def _substituted(self, rows: dict[int, Expr], last: int, gone: set[int]) -> int | None:
         """Solve each row but `last` for what it shares with others and put it there, in place.
 
-        That is one of the unknowns `gone`, or a sum of terms with them. Returns the worst solvability; None if it fails.
+        That is one of the unknowns `gone`, or a sum of terms with them. Returns the worst solvability or None.
         """
         active, worst = [i for i in rows if i != last], 0
         while active:

@@ -16,10 +16,13 @@ from acausal.errors import SimulationError
 from acausal.lowering.hybrid import Hybrid, Piece, Point
 from acausal.lowering.initial import InitialProblem
 from acausal.lowering.levels import levels
+from acausal.passes.impulses import driven_states
 
 from .mode_search import NOISE, TURNS, Equations, ModeSearch
 from .native_library import Floats
 
+JUMPS = 1e-5
+"""Equations whose sides differ by more than this, relative to what is in them, jump at an event."""
 ROUNDING = 1e-13
 """Values of a condition this small, relative to the quantities in it, are rounding."""
 
@@ -77,6 +80,7 @@ class EventIteration(ModeSearch):
         super().__init__(hybrid, problem, equations)
         self.warn = warn
         self.warned: set[tuple[int, int]] = set()
+        self.jumped: set[int] = set()
         self.due: list[tuple[float, float, int]] = []
         self.moves: list[Move] = []
         self.noise: Floats = np.zeros(hybrid.roots.count)
@@ -117,6 +121,7 @@ class EventIteration(ModeSearch):
         self.forced = []
         if samples:
             outcome = self._over(t, outcome, samples)
+        self._check_jumps(left, outcome)
         outcome.changed = [*changed, *(samples or []), *outcome.changed]
         return outcome
 
@@ -177,6 +182,35 @@ class EventIteration(ModeSearch):
             f"At t = {t:.12g} s the events do not come to an end: each change brings about another. Involved are:\n"
             + self._names([*active, *moved] or seen)
         )
+
+    def _check_jumps(self, left: Point, outcome: Outcome) -> None:
+        """What a jump leaves out: the impulse in the derivatives of what jumps; where `reinit` acts, it says how.
+
+        Raises:
+            SimulationError: a state would have to jump with it.
+        """
+        if not self.hybrid.jumps or any(len(rows) for move in self.moves for rows in move.reinits):
+            return
+        low, flat = self.problem.lowered, self.hybrid.flat
+        point = Point(left.t, left.v, outcome.p)
+        for jump in self.hybrid.jumps:
+            apart, size = jump.size(point, low.nominal)
+            for k in np.flatnonzero(apart > JUMPS * size)[:1].tolist():
+                rows, row = jump.piece.rows, int(jump.piece.slots[k])
+                states = driven_states(low.schedule, row)
+                names = ", ".join(f"`{low.schedule.reduced.name(int(v))}`" for v in states[:5])
+                text = (
+                    f"At t = {left.t:.9g} s this equation jumps, but it has been differentiated, and the derivative "
+                    f"has an impulse there:\n    {flat.equation_line(rows, k)}\n"
+                )
+                if len(states):
+                    raise SimulationError(
+                        f"{text}With it {names} would have to jump.\nTry: a source without jumps (a steep ramp, or a "
+                        "filter behind it), or `reinit` in a `when` that says what the states are behind the jump."
+                    )
+                if row not in self.jumped:
+                    self.jumped.add(row)
+                    self.warn(f"{text}The results do not show the impulse; all else is right.")
 
     def _check_solved(self, t: float, values: Floats) -> None:
         """Raise an error where coupled equations have become singular with these modes."""
