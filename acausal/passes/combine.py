@@ -42,6 +42,8 @@ ZERO_BELOW = 1e-11
 """A difference is zero if it is this small relative to what it is the difference of, at all points."""
 CHANGED = 1e-6
 """An expression depends on a variable that makes this difference relative to the size of its terms."""
+VANISHING = 1e-9
+"""A pivot vanishes at the start if it is this small relative to what it is elsewhere."""
 LARGEST = 2000
 """Blocks beyond this size are taken as they are."""
 
@@ -74,9 +76,16 @@ def describe(flat: FlatModel, replacements: list[Replacement]) -> str:
 
 
 def combine(
-    index: IndexReduced, blocks: list[Ints], points: list[Point], random: np.random.Generator
+    index: IndexReduced, blocks: list[Ints], points: list[Point], begin: Point, random: np.random.Generator
 ) -> list[Replacement]:
     """Replacements for blocks (rows of `index`) with a singular Jacobian.
+
+    Args:
+        index: the equations.
+        blocks: rows of each block.
+        points: in general position.
+        begin: where runs are likely to start, so that nothing is divided by what vanishes there.
+        random: chooses between branches.
 
     Raises:
         StructureError: there is no combination, or it says nothing.
@@ -88,10 +97,10 @@ def combine(
             groups.setdefault(block.signature, []).append(block)
     out: list[Replacement] = []
     for members in groups.values():
-        found = _Group(index, members, points, random).replacements()
+        found = _Group(index, members, points, begin, random).replacements()
         if found is None and len(members) > 1:  # the instances differ: one by one
             for block in members:
-                out.extend(_Group(index, [block], points, random).replacements() or [])
+                out.extend(_Group(index, [block], points, begin, random).replacements() or [])
         else:
             out.extend(found or [])
     return out
@@ -181,11 +190,6 @@ class _Entry:
         """Whether it is zero nowhere."""
         return self.expression is not ZERO and bool(np.all(np.abs(self.value) > 0))
 
-    @property
-    def rank(self) -> int:
-        """How safe it is to divide by it: 0 for a number, 1 for parameters, 2 for variables."""
-        return pivot_rank(self.expression)
-
 
 def pivot_rank(expression: Expr) -> int:
     """0 for a number, 1 for an expression of parameters, 2 for others."""
@@ -198,7 +202,7 @@ class _Group:
     """Blocks of equal shape."""
 
     def __init__(
-        self, index: IndexReduced, blocks: list[_Block], points: list[Point], random: np.random.Generator
+        self, index: IndexReduced, blocks: list[_Block], points: list[Point], begin: Point, random: np.random.Generator
     ) -> None:
         self.index = index
         self.blocks = blocks
@@ -217,6 +221,7 @@ class _Group:
             Sampler(self._leaf(point), branch, lambda: float(random.uniform(0.5, 1.5)))
             for point, branch in zip(points, branches, strict=False)
         ]
+        self.begin = Sampler(self._leaf(begin), branches[0], lambda: 1.0)
         self.entries = self._jacobian()
 
     def _leaf(self, point: Point) -> Any:
@@ -235,6 +240,14 @@ class _Group:
         """Values at all points of all blocks, (points, blocks)."""
         n = len(self.blocks)
         return np.stack([np.broadcast_to(np.asarray(s.values((expression,))[0], float), (n,)) for s in self.samplers])
+
+    def _pivot_rank(self, pivot: Expr, value: Floats) -> int:
+        """How safe it is to divide by it: 0 for a number, 1 for parameters, 2 for variables, 3 if it starts at zero."""
+        rank = pivot_rank(pivot)
+        if rank < 2:
+            return rank
+        at = np.abs(np.asarray(self.begin.values((pivot,))[0], float))
+        return 2 if np.all(at > VANISHING * np.nanmin(np.abs(value), axis=0)) else 3
 
     def _jacobian(self) -> dict[tuple[int, int], _Entry]:
         entries: dict[tuple[int, int], _Entry] = {}
@@ -418,11 +431,11 @@ class _Group:
         worst = 0
         while active:
             candidates = [
-                (e.rank, sum(u in rows[k] for k in circuit), i, u)
+                (self._pivot_rank(e.expression, e.value), sum(u in rows[k] for k in circuit), i, u)
                 for i in active for u, e in rows[i].items() if e.nonzero
             ]  # fmt: skip
             if not candidates:
-                return 3, None
+                return 4, None
             rank, _, p, u = min(candidates)
             worst = max(worst, rank)
             active.remove(p)
@@ -435,7 +448,7 @@ class _Group:
                 _subtract(rows[k], factor, {v: e for v, e in rows[p].items() if v != u})
                 _subtract(factors[k], factor, factors[p])
         if rows[last]:
-            return 3, None
+            return 4, None
         return worst, {i: e.expression for i, e in factors[last].items()}
 
     def _made(self, residual: Expr, last: int, involved: list[int]) -> Replacement:

@@ -94,4 +94,7 @@ def _replacements(index: IndexReduced, parameters: Parameters) -> list[Replaceme
         return []
     members = [blocks.rows_of(int(b)) for b in np.flatnonzero(singular)]
     points = [point_nearby(index, parameters, random) for _ in range(3)]
-    return combine(index, members, points, random)
+    values, parameter_values, _ = points[0]
+    start = np.pad(index.flat.start, (0, len(values) - len(index.flat.start)), constant_values=np.nan)
+    begin = np.where(np.isnan(start), values, start), parameter_values, 0.0
+    return combine(index, members, points, begin, random)
