@@ -11,6 +11,7 @@ import numpy as np
 
 from .language.flat_model import FlatModel
 from .lowering.initial import ACCEPTED
+from .passes.derivative_array import differentiation_index
 from .passes.places import declared
 from .passes.schedule import Schedule
 
@@ -28,6 +29,8 @@ class Report:
         unknowns: variables and equations that remain.
         structural_index: 0 = explicit ODE, 1 = algebraic unknowns, 2 and more = hidden constraints (Pryce 2001,
             counting once more only the equations that algebraic variables follow from).
+        index: the differentiation index, up to which the structural one is an upper bound: it is lower where equations
+            cancel in an unknown that seems to follow from them. That of a large system is the structural one.
         differentiated: equations that index reduction differentiated.
         states, algebraics, invariants: numbers of states, of algebraic unknowns of the solver, of retained constraints.
         state_names, torn: names of the states and of the algebraic unknowns.
@@ -44,6 +47,7 @@ class Report:
     aliases: int
     unknowns: int
     structural_index: int
+    index: int
     differentiated: int
     states: int
     algebraics: int
@@ -68,6 +72,7 @@ class Report:
             ("declared", f"{self.variables} variables, {self.equations} equations"),
             ("alias elimination", f"{self.aliases} eliminated, {self.unknowns} unknowns remain"),
             ("structural index", f"{self.structural_index} ({self.differentiated} equations differentiated)"),
+            *([("index", f"{self.index}")] if self.index != self.structural_index else []),
             ("states", f"{self.states}: {_few(self.state_names)}"),
             ("algebraic unknowns", f"{self.algebraics}" + (f": {_few(self.torn)}" if self.torn else "")),
             ("invariants", f"{self.invariants}"),
@@ -99,6 +104,7 @@ def make_report(system: System) -> Report:
         aliases=int((~stages.reduced.unknown).sum()),
         unknowns=int(stages.reduced.unknown.sum()),
         structural_index=stages.index.index,
+        index=_index(system),
         differentiated=stages.index.n_differentiated,
         states=low.n_x,
         algebraics=low.n_w,
@@ -112,6 +118,15 @@ def make_report(system: System) -> Report:
         levels=max((g.level for g in schedule.groups), default=-1) + 1,
         seconds=dict(stages.seconds),
     )
+
+
+def _index(system: System) -> int:
+    """The differentiation index; it takes a moment, and is kept."""
+    if "index" not in system.cache:
+        stages = system.stages
+        index = differentiation_index(stages.reduced, stages.index.index, system.program.generic)
+        system.cache["index"] = index
+    return system.cache["index"]
 
 
 def explain_initial(

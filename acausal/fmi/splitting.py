@@ -237,7 +237,7 @@ def split(
         except AcausalError as error:
             failures.append(f"{_described(choice)}: {error}")
             continue
-        index = sum(s.report().structural_index for s in (near, far))
+        index = sum(s.stages.index.index for s in (near, far))
         needs = sum(_needs(near if s == "near" else far, c, p) for c in halves.cuts for p in c.potentials
                     for s in (choice[c.path],))  # fmt: skip
         found.append(((index, needs, number), choice, (near, far)))
