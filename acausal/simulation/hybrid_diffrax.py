@@ -55,8 +55,6 @@ TINY = 1e-200
 """Slack of what is at its switch exactly: just not zero."""
 SAME = 1e-13
 """Output times this close to that of an event, relative to it, are the event's: they show what follows."""
-NARROWEST = 1e-6
-"""Steps shorter than this part of the rest of the run are not refused."""
 
 
 OUTSIDE = (
@@ -215,10 +213,10 @@ class _Stretches:
             return Stretch(np.tile(z, (n, 1)), 0, n, max(t, stop), z, step, None, {})
         hybrid, equations, n_x = self.iteration.hybrid, self.iteration.equations, self.lowered.n_x
         before = sides(hybrid, equations, t, z, p)
-        slack, shortest = _slack(self.iteration, before), jnp.asarray(NARROWEST * (stop - t))
+        slack, rest = _slack(self.iteration, before), jnp.asarray(stop - t)
         together = isinstance(self.model.method, Rodas5P)
         size, noise = jnp.asarray(self.iteration.sizes_of_roots), jnp.asarray(self.iteration.noise)
-        switch = Switch(jnp.asarray(slack), size, noise, shortest, self.lowered, hybrid.roots, together, n_x)
+        switch = Switch(jnp.asarray(slack), size, noise, rest, self.lowered, hybrid.roots, together, n_x)
         finder = _JustBehind(rtol=TIME, atol=NEAR_ZERO, flip=True)  # what switches by rounding is at an end of the step
         event = diffrax.Event(switch, finder) if hybrid.roots.count else None
         outcome, seconds, _ = plain.carry_out(

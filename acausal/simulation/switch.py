@@ -22,6 +22,8 @@ SMALL = 1e-90
 """The root finder asks for a small function as well as for a short interval: the interval alone is to count."""
 ARMED = 1e-6
 """Part of its size that a condition may be behind its switch by rounding."""
+NARROWEST = 1e-6
+"""Steps shorter than this part of the rest of the run are not refused."""
 _PLACES = np.sort([*LOOKS, *FURTHER])
 _NODES = np.searchsorted(_PLACES, LOOKS[NODES])
 
@@ -59,7 +61,7 @@ class Switch(eqx.Module):
         slack: (n_roots,) what a condition may be on the other side.
         size: (n_roots,) largest value of each condition at events.
         noise: (n_roots,) what of each condition is rounding.
-        shortest: steps shorter than this are not refused [s].
+        rest: time to the end of the stretch [s].
         lowered: the equations.
         roots: the conditions.
         together: whether y holds the algebraic unknowns behind the states.
@@ -69,7 +71,7 @@ class Switch(eqx.Module):
     slack: Array
     size: Array
     noise: Array
-    shortest: Array
+    rest: Array
     lowered: Any = eqx.field(static=True)
     roots: Roots = eqx.field(static=True)
     together: bool = eqx.field(static=True)
@@ -79,12 +81,15 @@ class Switch(eqx.Module):
         """With slack for what has switched at the start already, but for rounding.
 
         The mode that an event has left is that of values computed elsewhere; where equations are nearly singular,
-        those here differ. A root is a change of sign: without slack, none would be found from there on.
+        those here differ. A root is a change of sign: without slack, none would be found from there on. What has been
+        zero at all events so far, a time that a clock begins with, is as large as time makes it until the end.
         """
-        behind = jax.lax.stop_gradient(-self.sides(t, y, args))
-        some = (behind >= 0.0) & (behind <= ARMED * jnp.maximum(self.size, behind))
+        value, rate = jax.jvp(lambda t: self.sides(t, y, args), (t,), (jnp.ones_like(t),))
+        behind = jax.lax.stop_gradient(-value)
+        size = jnp.where(self.size > 0.0, self.size, jax.lax.stop_gradient(jnp.abs(rate)) * self.rest)
+        some = (behind >= 0.0) & (behind <= ARMED * size)
         slack = self.slack + jnp.where(some, 10.0 * behind + self.noise, 0.0)
-        return Switch(slack, self.size, self.noise, self.shortest, self.lowered, self.roots, self.together, self.n_x)
+        return Switch(slack, self.size, self.noise, self.rest, self.lowered, self.roots, self.together, self.n_x)
 
     def __call__(self, t: Any, y: Any, args: Any, **_: Any) -> Array:
         return SMALL * jnp.min(self.sides(t, y, args))
@@ -132,6 +137,6 @@ class Watched(Wrapped):
             inside = jax.lax.map(sides, jnp.asarray(_PLACES[1:-1]))
             ends = self.switch.sides(t0, y0, args), self.switch.sides(t1, y1, args)
             over = unresolved(jnp.concatenate([ends[0][None], inside, ends[1][None]]), self.switch.noise)
-            over &= t1 - t0 > self.switch.shortest
+            over &= t1 - t0 > NARROWEST * self.switch.rest
             error = jax.tree.map(lambda e: jnp.where(over, jnp.inf, e), error)
         return y1, error, dense, state, result

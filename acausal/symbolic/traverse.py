@@ -108,6 +108,7 @@ def postorder_missing(roots: list[Expr], known: Mapping[int, Any]) -> list[Expr]
 
 
 _ARITHMETIC = frozenset({"add", "mul", "div", "neg", "pow"})
+_HOLDS = frozenset({"max", "min", "where", "abs"})
 
 
 def apply(node: Expr, args: list[Any], xp: Any) -> Any:
@@ -127,10 +128,33 @@ def apply(node: Expr, args: list[Any], xp: Any) -> Any:
         exponent = node.args[1]
         if exponent.op == "const" and exponent.value == int(exponent.value) and abs(exponent.value) <= 16:
             return args[0] ** int(exponent.value)
+        if exponent.op == "const" and 0.0 < exponent.value < 1.0 and _may_be_held(node.args[0]):
+            return _rooted(args[0], lambda x: xp.power(x, args[1]), xp)
         return xp.power(args[0], args[1])
+    if op == "sqrt" and _may_be_held(node.args[0]):
+        return _rooted(args[0], xp.sqrt, xp)
     if op == "where":
         return xp.where(*args)
     return getattr(xp, OPERATORS[op].array)(*args)
+
+
+def _may_be_held(x: Expr) -> bool:
+    """Whether a factor of x is what may be held at zero."""
+    factors = [x]
+    while factors:
+        node = factors.pop()
+        if node.op in _HOLDS:
+            return True
+        if node.op in ("mul", "div", "neg"):
+            factors += node.args[: 1 if node.op == "div" else None]
+    return False
+
+
+def _rooted(x: Any, root: Callable[[Any], Any], xp: Any) -> Any:
+    """A root of what is held at zero, as in ``sqrt(max(h, 0))``. Its slope there is zero, and not zero times infinity,
+    which is what JAX would make of it."""
+    held = x == 0.0
+    return xp.where(held, 0.0, root(xp.where(held, 1.0, x)))
 
 
 def _number(value: Any) -> Any:
