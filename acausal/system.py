@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -342,17 +342,33 @@ class System:
 
         return jax.jacfwd(lambda y: self.vector_field(t, y, parameters))(x)
 
-    def linearize(self, t: float = 0.0, x: Any = None, **options: Any) -> StateSpace:
+    def linearize(
+        self,
+        t: float = 0.0,
+        x: Any = None,
+        *,
+        parameters: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, float] | None = None,
+        outputs: Sequence[str] = (),
+    ) -> StateSpace:
         """State-space matrices at time t and states x; see `acausal.analysis.linearize.linearize`."""
         from .analysis.linearize import linearize
 
-        return linearize(self, t, x, **options)
+        return linearize(self, t, x, parameters=parameters, inputs=inputs, outputs=outputs)
 
-    def steady_state(self, **options: Any) -> dict[str, float]:
+    def steady_state(
+        self,
+        *,
+        t: float = 0.0,
+        parameters: Mapping[str, Any] | None = None,
+        inputs: Mapping[str, float] | None = None,
+        guess: Any = None,
+        tolerance: float = 1e-10,
+    ) -> dict[str, float]:
         """Values of all variables where nothing changes; see `acausal.analysis.steady_state.steady_state`."""
         from .analysis.steady_state import steady_state
 
-        return steady_state(self, **options)
+        return steady_state(self, t=t, parameters=parameters, inputs=inputs, guess=guess, tolerance=tolerance)
 
     # ---- running --------------------------------------------------------------------------------------------------
     def simulate(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..errors import UnknownNameError, nearest
 from ..language.template import Floats
 
 if TYPE_CHECKING:
@@ -43,12 +44,51 @@ class StateSpace:
         return values[np.lexsort((values.imag, values.real))]
 
 
+def checked_inputs(system: System, inputs: Mapping[str, float] | None) -> dict[str, float]:
+    """The values of inputs, which are numbers.
+
+    Raises:
+        UnknownNameError: the model has no such input.
+    """
+    for name in inputs or {}:
+        if name not in system.input_names:
+            known = nearest(name, system.input_names) or f" Its inputs are: {', '.join(system.input_names) or 'none'}."
+            raise UnknownNameError(f"The model has no input `{name}`.{known}")
+    return {name: float(value) for name, value in (inputs or {}).items()}
+
+
+def named_values(system: System, values: Mapping[str, Any], x: Any, w: Any) -> tuple[Floats, Floats]:
+    """States and algebraic unknowns with the values given by name in the place of `x` and `w`.
+
+    Raises:
+        UnknownNameError: the model has no such variable, or it follows from states that are not given.
+    """
+    representative, sign = system.observed_ids
+    given: dict[int, tuple[str, float]] = {}
+    for name, value in values.items():
+        ids = np.ravel(system.index_of(name))
+        for k, number in zip(ids.tolist(), np.ravel(np.broadcast_to(value, ids.shape)).tolist(), strict=True):
+            given[int(representative[k])] = name, float(sign[k]) * number
+    x, w = np.array(x, float), np.array(w, float)
+    states, tears = system.stages.schedule.states.tolist(), system.stages.schedule.tears.tolist()
+    inputs = {int(representative[system.index_of(name)]) for name in system.input_names}
+    follow = [name for k, (name, _) in given.items() if k not in {*states, *tears, *inputs}]
+    if follow and not all(k in given for k in states):
+        known = ", ".join(f"`{name}`" for name in system.states[:8])
+        raise UnknownNameError(f"`{follow[0]}` follows from the states and cannot be given for them; they are {known}")
+    for into, numbers in ((x, states), (w, tears)):
+        for i, k in enumerate(numbers):
+            into[i] = given[k][1] if k in given else into[i]
+    return x, w
+
+
 def linearize(
     system: System,
     t: float = 0.0,
     x: Any = None,
     *,
     parameters: Mapping[str, Any] | None = None,
+    inputs: Mapping[str, float] | None = None,
     outputs: Sequence[str] = (),
 ) -> StateSpace:
     """State-space matrices of `system` at time `t` and states `x`, by automatic differentiation.
@@ -59,8 +99,10 @@ def linearize(
     Args:
         system: a compiled model.
         t: time [s].
-        x: states (n_x,); those of the start by default.
+        x: states (n_x,), or values by name, as `steady_state` gives them (its inputs count, too); what is not given is
+            as at the start.
         parameters: dotted name to value.
+        inputs: values of inputs by name; 0 where they are not given.
         outputs: dotted names of variables.
 
     Raises:
@@ -73,7 +115,11 @@ def linearize(
 
     ensure_x64()
     low = system.lowered
-    x0, w0, p = system.initialize(t, parameters)
+    point: Mapping[str, Any] = x if isinstance(x, Mapping) else {}
+    fed = {name: point[name] for name in system.input_names if name in point} | checked_inputs(system, inputs)
+    x0, w0, p = system.initialize(t, parameters, inputs=fed)
+    if point:
+        x, w0 = named_values(system, point, x0, w0)
     x = jnp.asarray(x0 if x is None else x, float)
     n_u, first = len(system.input_names), system.stages.flat.n_par
     names = tuple(outputs) or system.outputs

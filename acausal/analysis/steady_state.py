@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from ..errors import SimulationError
+from .linearize import checked_inputs, named_values
 
 if TYPE_CHECKING:
     from ..system import System
@@ -18,6 +19,7 @@ def steady_state(
     *,
     t: float = 0.0,
     parameters: Mapping[str, Any] | None = None,
+    inputs: Mapping[str, float] | None = None,
     guess: Any = None,
     tolerance: float = 1e-10,
 ) -> dict[str, float]:
@@ -30,7 +32,8 @@ def steady_state(
         system: a compiled model.
         t: time at which sources are evaluated [s].
         parameters: dotted name to value.
-        guess: states to start from (n_x,).
+        inputs: values of inputs by name; 0 where they are not given.
+        guess: states to start from (n_x,), or values by name.
         tolerance: largest relative residual.
 
     Returns:
@@ -43,8 +46,12 @@ def steady_state(
     from ..lowering.numeric import NumericRun
 
     low = system.lowered
-    x0, w0, p = (np.asarray(a, float) for a in system.initialize(t, parameters))
-    x = x0 if guess is None else np.asarray(guess, float)
+    fed = checked_inputs(system, inputs)
+    x, w0, p = (np.asarray(a, float) for a in system.initialize(t, parameters, inputs=fed))
+    if isinstance(guess, Mapping):
+        x, w0 = named_values(system, cast("Mapping[str, Any]", guess), x, w0)
+    elif guess is not None:
+        x = np.asarray(guess, float)
     free = np.arange(low.n_x)
     scale = np.concatenate([low.x_nominal, low.w_nominal])
 

@@ -1,0 +1,138 @@
+"""Steady states and linearization about them, against closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import acausal as ac
+from acausal import Component, Discrete, Equations, Input, Output, Parameter, Variable, connect, der, sin, start, when
+from acausal.components import blocks, electrical, rotational
+
+
+class Pendulum(Component):
+    """Driven by a torque; hangs at 0 and stands at pi."""
+
+    tau: Input = Input(unit="1/s2")
+    tip: Output = Output()
+    w0: Parameter = Parameter(3.0, unit="1/s")
+    d: Parameter = Parameter(0.1, unit="1/s")
+    phi: Variable = Variable(start=0.1, fixed=True)
+    w: Variable = Variable(unit="1/s", start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield der(self.phi) == self.w
+        yield der(self.w) == self.tau - self.w0**2 * sin(self.phi) - self.d * self.w
+        yield self.tip == 2.0 * sin(self.phi)
+
+
+@pytest.fixture(scope="module")
+def pendulum() -> ac.System:
+    return ac.compile(Pendulum(), inputs=["tau"], outputs=["tip"])
+
+
+def test_where_a_pendulum_rests(pendulum: ac.System) -> None:
+    assert abs(pendulum.steady_state()["phi"]) < 1e-9
+    assert_allclose(pendulum.steady_state(guess={"phi": 3.0})["phi"], np.pi)
+    assert_allclose(pendulum.steady_state(guess=[3.0, 0.0])["phi"], np.pi)
+    held = pendulum.steady_state(inputs={"tau": 4.5})
+    assert_allclose([held["phi"], held["tau"], held["tip"]], [np.pi / 6.0, 4.5, 1.0], atol=1e-9)
+
+
+def test_linear_about_an_operating_point(pendulum: ac.System) -> None:
+    """The stiffness is ``w0^2 cos(phi)``; standing, one pole is positive."""
+    held = pendulum.steady_state(inputs={"tau": 4.5})
+    about = pendulum.linearize(x=held)
+    stiffness = 9.0 * np.cos(np.pi / 6.0)
+    assert_allclose(about.A, [[0.0, 1.0], [-stiffness, -0.1]], atol=1e-9)
+    assert_allclose(about.B, [[0.0], [1.0]])
+    assert_allclose(about.C, [[2.0 * np.cos(np.pi / 6.0), 0.0]])
+    assert (about.states, about.inputs, about.outputs) == (("phi", "w"), ("tau",), ("tip",))
+    standing = pendulum.linearize(x={"phi": np.pi}, outputs=["w"])
+    assert_allclose(standing.poles, [-0.05 - np.sqrt(9.0025), -0.05 + np.sqrt(9.0025)])
+    assert_allclose(standing.C, [[0.0, 1.0]])
+
+
+def test_names_that_the_model_does_not_have(pendulum: ac.System) -> None:
+    with pytest.raises(ac.UnknownNameError, match=r"no input `tua`. Did you mean `tau`"):
+        pendulum.steady_state(inputs={"tua": 1.0})
+    with pytest.raises(ac.UnknownNameError, match=r"no input `x`"):
+        pendulum.linearize(inputs={"x": 1.0})
+    with pytest.raises(ac.UnknownNameError, match=r"no variable `ph`. Did you mean `phi`"):
+        pendulum.steady_state(guess={"ph": 3.0})
+
+
+def test_what_turns_for_ever_has_no_steady_state() -> None:
+    class Clock(Component):
+        x: Variable = Variable(start=0.0, fixed=True)
+
+        def equations(self) -> Equations:
+            yield der(self.x) == 1.0
+
+    with pytest.raises(ac.SimulationError, match=r"`Clock` has no steady state near the given start: `x`"):
+        ac.compile(Clock()).steady_state()
+
+
+class Motor(Component):
+    """A motor from the libraries, with a torque on its shaft."""
+
+    v: Input = Input(unit="V")
+    load: Input = Input(unit="N.m")
+    source: electrical.SignalVoltage = electrical.SignalVoltage()
+    R: electrical.Resistor = electrical.Resistor(R=0.5)
+    L: electrical.Inductor = electrical.Inductor(L=4.5e-3)
+    emf: electrical.RotationalEMF = electrical.RotationalEMF(k=0.5)
+    ground: electrical.Ground = electrical.Ground()
+    rotor: rotational.Inertia = rotational.Inertia(J=0.02, w=start(0.0, fixed=True))
+    bearing: rotational.Damper = rotational.Damper(d=0.01)
+    wall: rotational.Fixed = rotational.Fixed()
+    torque: rotational.Torque = rotational.Torque()
+
+    def equations(self) -> Equations:
+        yield self.source.v == self.v
+        yield self.torque.tau == self.load
+        yield connect(self.source.p, self.R.p)
+        yield connect(self.R.n, self.L.p)
+        yield connect(self.L.n, self.emf.p)
+        yield connect(self.emf.n, self.source.n, self.ground.p)
+        yield connect(self.emf.flange, self.rotor.flange_a, self.bearing.flange_a)
+        yield connect(self.bearing.flange_b, self.wall.flange)
+        yield connect(self.rotor.flange_b, self.torque.flange)
+
+
+def test_the_gain_of_a_motor() -> None:
+    """``w = (k v + R tau)/(k^2 + R d)`` at rest of the currents; the angle is left out: it goes on."""
+    motor = ac.compile(Motor())
+    about = motor.linearize(outputs=["rotor.w", "L.i"])
+    keep = [k for k, name in enumerate(about.states) if "phi" not in name]
+    a, b, c = about.A[np.ix_(keep, keep)], about.B[keep], about.C[:, keep]
+    assert len(keep) == 2
+    assert_allclose(np.poly(a), [1.0, 0.5 / 4.5e-3 + 0.5, (0.5 * 0.01 + 0.25) / (4.5e-3 * 0.02)])
+    gain = -c @ np.linalg.solve(a, b)
+    expected = np.array([[0.5, 0.5], [0.01, -0.5]]) / 0.255
+    order = [about.inputs.index("v"), about.inputs.index("load")]
+    assert_allclose(gain[:, order], expected, atol=1e-9)
+    assert_allclose(motor.linearize(x={"emf.n.i": -4.0}, outputs=["L.i"]).x, [4.0, 0.0, 0.0])  # by any of their names
+    with pytest.raises(ac.UnknownNameError, match=r"`rotor.a` follows from the states .*they are `L.i`"):
+        motor.linearize(x={"rotor.a": 3.0})
+
+
+class Stepped(Component):
+    """A lag whose wanted value is a discrete variable, and one from the library."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    wanted: Discrete = Discrete(start=2.0)
+    lag: blocks.FirstOrder = blocks.FirstOrder(T=0.5, k=3.0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.wanted - self.x
+        yield when(self.x > 10.0, {self.wanted: 0.0})
+        yield self.lag.u == self.x
+
+
+def test_discrete_variables_are_as_at_the_start() -> None:
+    system = ac.compile(Stepped())
+    found = system.steady_state()
+    assert_allclose([found["x"], found["wanted"], found["lag.y"]], [2.0, 2.0, 6.0], atol=1e-9)
+    assert_allclose(system.linearize(x=found).poles, [-2.0, -1.0])
