@@ -153,6 +153,17 @@ def test_cubics_of_a_table() -> None:
     assert_allclose((near[2] - near[0]) / 2e-3, limited, rtol=3e-3)
 
 
+@pytest.mark.parametrize(("rows", "smoothness", "values"), [
+    ([[0, 0], [1, 2], [1, 5]], "LinearSegments", [-2.0, 0.0, 5.0, 5.0]),  # a jump at the end is held
+    ([[0, 7], [0, 0], [1, 2]], "LinearSegments", [7.0, 0.0, 2.0, 4.0]),
+    ([[0, 0], [1, 2]], "ConstantSegments", [-2.0, 0.0, 2.0, 4.0]),  # outside, the line through the two points
+    ([[0, 7], [0, 2]], "ConstantSegments", [7.0, 2.0, 2.0, 2.0]),
+])  # fmt: skip
+def test_ends_of_a_table(rows: list[list[float]], smoothness: str, values: list[float]) -> None:
+    table = blocks.CombiTable1Ds(table=rows, smoothness=smoothness)
+    assert_allclose(along(table, [-1.0, 0.0, 1.0, 2.0])[:, 0], values, atol=1e-12)
+
+
 def test_tables_that_are_not_extrapolated() -> None:
     with pytest.raises(ac.SimulationError, match="a table from 0 to 5 is not extrapolated"):
         along(blocks.CombiTable1Ds(table=list(zip(X, Y, strict=True)), extrapolation="NoExtrapolation"), [4.0, 6.0])
@@ -175,14 +186,51 @@ def map2(table: Component, u1: float, u2: float) -> float:
     ({"extrapolation": "HoldLastPoint"}, (25.0, 3.0), 16.0),
     ({"extrapolation": "Periodic"}, (35.0, 2.25), 5.5),
     ({"smoothness": "ConstantSegments"}, (19.0, 1.9), 0.0),
+    ({"smoothness": "ConstantSegments"}, (20.0, 2.0), 16.0),
+    ({"smoothness": "ConstantSegments"}, (25.0, 1.0), 12.0),  # outside, the line through the last two points
+    ({"smoothness": "ConstantSegments", "extrapolation": "HoldLastPoint"}, (25.0, 3.0), 16.0),
+    ({"smoothness": "ContinuousDerivative"}, (25.0, 3.0), 32.0),  # two points make lines
 ])  # fmt: skip
 def test_map(options: dict[str, str], point: tuple[float, float], value: float) -> None:
     assert map2(blocks.CombiTable2Ds(table=MAP, **options), *point) == pytest.approx(value)  # pyright: ignore
 
 
-def test_a_map_is_not_cubic() -> None:
-    with pytest.raises(ac.DeclarationError, match="LinearSegments or ConstantSegments"):
-        map2(blocks.CombiTable2Ds(table=MAP, smoothness="ContinuousDerivative"), 15.0, 1.5)
+def test_a_map_is_not_monotone() -> None:
+    with pytest.raises(ac.DeclarationError, match="LinearSegments or ConstantSegments or ContinuousDerivative"):
+        map2(blocks.CombiTable2Ds(table=MAP, smoothness="MonotoneContinuousDerivative1"), 15.0, 1.5)
+
+
+GRID = np.array([0.0, 0.4, 1.0, 1.3, 2.0]), np.array([-1.0, 0.0, 0.5, 2.0])
+
+
+def across(height: Callable[[Any, Any], Any], *, tilt: float) -> tuple[Any, Any, Any]:
+    """Akima's surface through the heights at the points of GRID, along a line that leaves it at both ends."""
+    rows = [[0.0, *GRID[1]], *([x, *height(x, GRID[1])] for x in GRID[0])]
+    t = np.linspace(0.0, 1.0, 401)
+    parts = {
+        "x": blocks.Ramp(height=3.0, duration=1.0, offset=-0.5),
+        "y": blocks.Ramp(height=tilt, duration=1.0, offset=0.5 - tilt / 2),
+        "map": blocks.CombiTable2Ds(table=rows, smoothness="ContinuousDerivative"),
+    }  # fmt: skip
+    found = simulated(t, "x.y - map.u1", "y.y - map.u2", **parts)
+    return np.asarray(found["x.y"]), np.asarray(found["y.y"]), np.asarray(found["map.y"])
+
+
+@pytest.mark.parametrize("tilt", [-4.0, 0.0, 4.0])
+def test_a_smooth_map_is_exact_for_a_twisted_plane(tilt: float) -> None:
+    """Inside and outside, with equal weights everywhere."""
+    x, y, z = across(lambda x, y: 1 + 2 * x - 3 * y + 4 * x * y, tilt=tilt)
+    assert_allclose(z, 1 + 2 * x - 3 * y + 4 * x * y, atol=1e-9)
+
+
+@pytest.mark.parametrize("tilt", [-4.0, 0.0, 4.0])
+def test_a_smooth_map_has_no_edges(tilt: float) -> None:
+    """No kink is among its second differences, and it is near to the function it goes through."""
+    x, y, z = across(lambda x, y: np.sin(x) * np.cos(y), tilt=tilt)
+    inside = (x >= 0) & (x <= 2) & (y >= -1) & (y <= 2)
+    assert np.abs(z - np.sin(x) * np.cos(y))[inside].max() < 0.06
+    step = x[1] - x[0]
+    assert np.abs(np.diff(z, 2)).max() < 20 * step**2  # a kink of 0.2 would be 0.2 * step, which is 27 * step**2
 
 
 def test_tables_on_file(tmp_path: Path) -> None:

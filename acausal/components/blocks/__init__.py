@@ -160,7 +160,6 @@ from .periodic import Pulse as Pulse
 from .periodic import SawTooth as SawTooth
 from .periodic import Trapezoid as Trapezoid
 from .piecewise import interpolate as interpolate
-from .piecewise import interpolate2 as interpolate2
 from .piecewise import piecewise as piecewise
 from .routing import BooleanPassThrough as BooleanPassThrough
 from .routing import BooleanReplicator as BooleanReplicator
@@ -194,6 +193,7 @@ from .statistics import RectifiedMean as RectifiedMean
 from .statistics import RootMeanSquare as RootMeanSquare
 from .statistics import StandardDeviation as StandardDeviation
 from .statistics import Variance as Variance
+from .surfaces import interpolate2 as interpolate2
 from .tables import CombiTable1Ds as CombiTable1Ds
 from .tables import CombiTable1Dv as CombiTable1Dv
 from .tables import CombiTable2Ds as CombiTable2Ds

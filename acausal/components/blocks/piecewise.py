@@ -1,4 +1,4 @@
-"""Functions of one and two variables through tabulated points."""
+"""Functions of one variable through tabulated points."""
 
 from __future__ import annotations
 
@@ -33,6 +33,11 @@ def piecewise(u: Expr, breaks: Points, pieces: Sequence[Expr]) -> Expr:
     return where(u < breaks[middle], low, high)
 
 
+def continued(u: Expr, x: Points, pieces: Sequence[Expr], first: Expr, last: Expr) -> Expr:
+    """``pieces[k]`` from ``x[k]`` to ``x[k+1]``, `first` below and `last` above; the last point has the last piece."""
+    return where(u > x[-1], last, piecewise(u, list(x[:-1]), [first, *pieces]))
+
+
 def interpolate(
     u: Expr, x: Points, y: Points, smoothness: str = "LinearSegments", extrapolation: str = "LastTwoPoints"
 ) -> Expr:
@@ -40,12 +45,14 @@ def interpolate(
 
     Two points with the same `x` make a jump, at which the second holds. Cubics are Akima's (`ContinuousDerivative`),
     Fritsch and Butland's (`MonotoneContinuousDerivative1`), Steffen's (`MonotoneContinuousDerivative2`) or the modified
-    ones of Akima (`ModifiedContinuousDerivative`). Without extrapolation the last pieces are continued.
+    ones of Akima (`ModifiedContinuousDerivative`); the monotone ones begin and end with the slopes between the last two
+    points, as in Modelica. `LastTwoPoints` are continued by the line through them, or held where they are a jump;
+    cubics by their tangents.
 
     Raises:
         DeclarationError: x that decrease, or a name that is not known.
     """
-    _check(x, smoothness, extrapolation)
+    check_points(x, smoothness, extrapolation)
     if len(x) == 1:
         return as_expr(y[0])
     if extrapolation == "Periodic":
@@ -55,14 +62,18 @@ def interpolate(
     if smoothness == "LinearSegments" and len(x) > LONG and all(b > a for a, b in pairwise(x)):
         return _long(u, tuple(x), tuple(y), extrapolation)
     intervals, coefficients = _coefficients(tuple(x), tuple(y), smoothness)
+    polynomials = [polynomial(u, *c) for c in coefficients]
     if extrapolation == "HoldLastPoint":
-        pieces = [as_expr(y[0]), *(_polynomial(u, *c) for c in coefficients), as_expr(y[-1])]
+        pieces = [as_expr(y[0]), *polynomials, as_expr(y[-1])]
         return piecewise(u, [x[0], *(b for _, b in intervals)], pieces)
-    if smoothness != "LinearSegments" and extrapolation == "LastTwoPoints":
-        first, last = (_tangent(u, x[0], coefficients[0]), _tangent(u, x[-1], coefficients[-1]))
-        pieces = [first, *(_polynomial(u, *c) for c in coefficients), last]
+    if extrapolation == "LastTwoPoints" and smoothness not in SMOOTHNESS[:2]:
+        ends = [_tangent(u, x[0], coefficients[0]), _tangent(u, x[-1], coefficients[-1])]
+        return continued(u, x, polynomials, *ends)
+    as_they_are = smoothness == "LinearSegments" and x[0] < x[1] and x[-2] < x[-1]
+    if extrapolation == "LastTwoPoints" and not as_they_are:
+        pieces = [_line(u, x[:2], y[:2], y[0]), *polynomials, _line(u, x[-2:], y[-2:], y[-1])]
         return piecewise(u, [x[0], *(b for _, b in intervals)], pieces)
-    return piecewise(u, [b for _, b in intervals[:-1]], [_polynomial(u, *c) for c in coefficients])
+    return piecewise(u, [b for _, b in intervals[:-1]], polynomials)
 
 
 def wrapped(u: Expr, x: Points) -> Expr:
@@ -72,36 +83,8 @@ def wrapped(u: Expr, x: Points) -> Expr:
     return x[0] + (u - x[0]) - (x[-1] - x[0]) * ac.floor((u - x[0]) / (x[-1] - x[0]))
 
 
-def interpolate2(
-    u1: Expr, u2: Expr, rows: Points, columns: Points, values: Sequence[Points], smoothness: str = "LinearSegments",
-    extrapolation: str = "LastTwoPoints",
-) -> Expr:  # fmt: skip
-    """Bilinear interpolation: ``values[i][j]`` at ``(rows[i], columns[j])``, or the value at the lower left corner.
-
-    Raises:
-        DeclarationError: points that decrease, or a name that is not known here: LinearSegments and ConstantSegments.
-    """
-    for points in (rows, columns):
-        _check(points, smoothness, extrapolation)
-    if smoothness not in SMOOTHNESS[:2]:
-        raise DeclarationError(f"smoothness={smoothness!r}: a table over two signals has {' or '.join(SMOOTHNESS[:2])}")
-    if extrapolation == "HoldLastPoint":
-        u1, u2 = ac.clip(u1, rows[0], rows[-1]), ac.clip(u2, columns[0], columns[-1])
-    if extrapolation == "Periodic":
-        u1, u2 = wrapped(u1, rows), wrapped(u2, columns)
-    along = [interpolate(u1, rows, [line[j] for line in values], smoothness) for j in range(len(columns))]
-    if len(columns) == 1:
-        return along[0]
-    if smoothness == "ConstantSegments":
-        return piecewise(u2, list(columns[1:-1]), along[:-1])
-    pieces = [
-        a + (b - a) * ((u2 - left) / (right - left))
-        for (a, b), (left, right) in zip(pairwise(along), pairwise(columns), strict=True)
-    ]
-    return piecewise(u2, list(columns[1:-1]), pieces)
-
-
-def _check(x: Points, smoothness: str, extrapolation: str) -> None:
+def check_points(x: Points, smoothness: str, extrapolation: str) -> None:
+    """Raise a DeclarationError for points that decrease, or a name that is not known."""
     if smoothness not in SMOOTHNESS:
         raise DeclarationError(f"smoothness={smoothness!r} is not one of {', '.join(SMOOTHNESS)}")
     if extrapolation not in EXTRAPOLATION:
@@ -129,42 +112,38 @@ def _cubics(x: Points, y: Points, smoothness: str) -> Any:
     """Coefficients of the cubic of each interval, the highest power first: (4, n - 1)."""
     from scipy.interpolate import Akima1DInterpolator, CubicHermiteSpline, PchipInterpolator
 
-    if smoothness == "MonotoneContinuousDerivative2":
-        return CubicHermiteSpline(x, y, _steffen(np.asarray(x), np.asarray(y))).c
-    if smoothness == "MonotoneContinuousDerivative1":
-        return PchipInterpolator(x, y).c
+    if smoothness.startswith("Monotone"):
+        across = np.diff(y) / np.diff(x)
+        inner = PchipInterpolator(x, y).derivative()(x) if smoothness[-1] == "1" else _steffen(np.diff(x), across)
+        return CubicHermiteSpline(x, y, [across[0], *inner[1:-1], across[-1]]).c
     if len(x) == 2:  # Akima's are straight then
         return np.array([[0.0], [0.0], [(y[1] - y[0]) / (x[1] - x[0])], [y[0]]])
     return Akima1DInterpolator(x, y, method="akima" if smoothness == "ContinuousDerivative" else "makima").c
 
 
-def _steffen(x: Any, y: Any) -> Any:
-    """Slopes of a monotone cubic at its points: Steffen (1990), Astronomy and Astrophysics 239, equations 8 to 11."""
-    h, s = np.diff(x), np.diff(y) / np.diff(x)
-    if len(s) == 1:
-        return np.array([s[0], s[0]])
+def _steffen(h: Any, s: Any) -> Any:
+    """Slopes of a monotone cubic at its points, from lengths and slopes of the intervals; not at the ends.
+
+    Source: Steffen (1990), Astronomy and Astrophysics 239, equations 8 to 11.
+    """
     p = (s[:-1] * h[1:] + s[1:] * h[:-1]) / (h[:-1] + h[1:])
     small = np.minimum(np.minimum(np.abs(s[:-1]), np.abs(s[1:])), np.abs(p) / 2)
-    inside = (np.sign(s[:-1]) + np.sign(s[1:])) * small
-    ends = [_steffen_end(s[0], s[1], h[0] / (h[0] + h[1])), _steffen_end(s[-1], s[-2], h[-1] / (h[-1] + h[-2]))]
-    return np.concatenate([ends[:1], inside, ends[1:]])
+    return np.concatenate([s[:1], (np.sign(s[:-1]) + np.sign(s[1:])) * small, s[-1:]])
 
 
-def _steffen_end(first: float, second: float, share: float) -> float:
-    """Slope at an end from those of the two intervals next to it."""
-    p = first * (1 + share) - second * share
-    if p * first <= 0:
-        return 0.0
-    return 2 * first if abs(p) > 2 * abs(first) else p
-
-
-def _polynomial(u: Expr, origin: float, *coefficients: float) -> Expr:
+def polynomial(u: Expr, origin: float, *coefficients: float) -> Expr:
+    """The polynomial of ``u - origin`` with these coefficients, the constant first."""
     s = u - origin
     result = as_expr(coefficients[0])
     for power, c in enumerate(coefficients[1:], start=1):
         if c:
             result = result + c * s**power
     return result
+
+
+def _line(u: Expr, x: Points, y: Points, held: float) -> Expr:
+    """The line through two points; the value that is held where they are a jump."""
+    return as_expr(held) if x[0] == x[1] else y[0] + (u - x[0]) * ((y[1] - y[0]) / (x[1] - x[0]))
 
 
 def _tangent(u: Expr, at: float, coefficients: tuple[float, ...]) -> Expr:

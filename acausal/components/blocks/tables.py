@@ -9,7 +9,8 @@ import numpy as np
 from acausal import Component, DeclarationError, Equations, Expr, Input, Output, Vector, assert_
 
 from .interfaces import SI2SO
-from .piecewise import interpolate, interpolate2
+from .piecewise import interpolate
+from .surfaces import interpolate2
 
 
 class PartialTableData(Component, partial=True):
@@ -164,7 +165,8 @@ class PartialTable2D(PartialTableData, partial=True):
 class CombiTable2Ds(SI2SO, PartialTable2D):
     """Table over `u1` (first column) and `u2` (first row); the number in the corner has no meaning.
 
-    `smoothness` is LinearSegments (bilinear) or ConstantSegments; `extrapolation` as of `CombiTable1Ds`.
+    `smoothness` is LinearSegments (bilinear), ConstantSegments or ContinuousDerivative (Akima); `extrapolation` as of
+    `CombiTable1Ds`.
 
     >>> close(binary(CombiTable2Ds(table=[[0, 1, 2], [10, 0, 4], [20, 8, 16]]), 15.0, 1.25), 5.5)
     True
