@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Component, Equations, Parameter, Variable, assert_, der, noevent, when
+from acausal import Component, Equations, Input, Parameter, Variable, assert_, der, noevent, when
 
 
 class Tank(Component):
@@ -102,3 +102,26 @@ def test_derivatives_and_batches_go_through(engine: Any) -> None:
     assert jax.grad(level)(1.5) == pytest.approx(1.0)
     assert jax.jit(level)(1.5) == pytest.approx(1.5)
     assert np.allclose(jax.vmap(level)(np.array([0.5, 1.5])), [0.5, 1.5])
+
+
+class Fed(Component):
+    """What is fed must not be too much."""
+
+    u: Input = Input()
+    x: Variable = Variable(start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.u
+        yield assert_(noevent(self.u <= 2.0), "too much is fed")
+
+
+def test_inputs_are_those_of_the_moment(engine: Any) -> None:
+    system = ac.compile(Fed())
+    t = np.linspace(0.0, 1.0, 11)
+    ramp = np.array([0.0, 1.0]), np.array([0.0, 3.0])
+    functions = [ramp] if engine == "native" else [ramp, lambda t: 3.0 * t]
+    for u in functions:
+        with pytest.raises(ac.SimulationError, match=r"At t = 0.7 s the assertion of Fed .* too much is fed"):
+            system.simulate(1.0, inputs={"u": u}, saveat=t, engine=engine)
+    with pytest.raises(ac.SimulationError, match=r"At t = 0 s the assertion of Fed .* too much is fed"):
+        system.simulate(1.0, inputs={"u": 2.5}, saveat=t, engine=engine)
