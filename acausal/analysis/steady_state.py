@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -11,7 +11,45 @@ from ..errors import SimulationError
 from .linearize import checked_inputs, named_values
 
 if TYPE_CHECKING:
+    from ..language.template import Floats
     from ..system import System
+
+FIRST, STEPS, STEP_TOLERANCE, SETTLED = 1e-2, 100, 1e-8, 1e-2
+"""Of the way to a steady state: part of its scale by which a state may move in the first step, number of steps, what is
+left in each, and the relative change in a step from which Newton's method is tried."""
+
+
+def _followed(
+    residual: Callable[[Floats], tuple[Floats, Floats]], y: Floats, n_x: int, scale: Floats, tolerance: float
+) -> tuple[Floats, Floats]:
+    """A root that growing implicit Euler steps of ``dx = residual[:n_x]`` lead to, and its relative residuals."""
+    from ..lowering.initial_numeric import gauss_newton
+
+    states = np.arange(n_x)
+    rate = np.max(np.abs(residual(y)[0][:n_x]) / scale[:n_x], initial=0.0)
+    h = FIRST / rate if 0.0 < rate < np.inf else 1.0
+    left = np.full(len(y), np.inf)
+    for _ in range(STEPS):
+
+        def step(z: Floats, y: Floats = y, h: float = h) -> tuple[Floats, Floats]:
+            value, slope = residual(z)
+            value, slope = value.copy(), slope.copy()
+            value[:n_x] -= (z - y)[:n_x] / h
+            slope[states, states] -= scale[:n_x] / h
+            return value, slope
+
+        after, missed = gauss_newton(step, y, scale)
+        if not np.max(missed, initial=0.0) <= STEP_TOLERANCE:
+            h *= 0.1
+            continue
+        moved = np.max(np.abs(after - y) / np.maximum(scale, np.abs(after)), initial=0.0)
+        y, h = after, 3.0 * h
+        if moved > SETTLED:
+            continue
+        found, left = gauss_newton(residual, y, scale)
+        if np.max(left, initial=0.0) <= tolerance:
+            return found, left
+    return y, left
 
 
 def steady_state(
@@ -26,7 +64,9 @@ def steady_state(
     """Values of all variables at a point where the derivatives of all states are zero.
 
     The root is sought from the start of the model (or `guess`) by damped Gauss-Newton steps of minimum norm, with
-    invariants as further equations; of a continuum of steady states the nearest one is found.
+    invariants as further equations; of a continuum of steady states the nearest one is found. Where that fails, as in
+    circuits of transistors, the model is followed on its way there by implicit Euler steps that grow (pseudo-transient
+    continuation, Kelley and Keyes 1998).
 
     Args:
         system: a compiled model.
@@ -61,7 +101,10 @@ def steady_state(
         value = np.concatenate([run.value[low.dx_ids], run.residual[0], g])
         return value, np.concatenate([run.gradient[low.dx_ids], run.residual[1], dg]) * scale
 
-    y, left = gauss_newton(residual, np.concatenate([x, w0]), scale)
+    first = np.concatenate([x, w0])
+    y, left = gauss_newton(residual, first, scale)
+    if not np.max(left, initial=0.0) <= tolerance:
+        y, left = _followed(residual, first, low.n_x, scale, tolerance)
     if not np.max(left, initial=0.0) <= tolerance:
         names = [*system.states, *(f"the equation of {n}" for n in system.algebraics)]
         worst = [f"`{names[i]}`" for i in np.argsort(-np.nan_to_num(left, nan=np.inf))[:5] if i < len(names)]

@@ -118,6 +118,37 @@ def test_the_gain_of_a_motor() -> None:
         motor.linearize(x={"rotor.a": 3.0})
 
 
+class Amplifier(Component):
+    """A transistor in common emitter circuit, with its charges and a capacitor at the emitter."""
+
+    supply: electrical.ConstantVoltage = electrical.ConstantVoltage(V=12.0)
+    Rc: electrical.Resistor = electrical.Resistor(R=2.2e3)
+    R1: electrical.Resistor = electrical.Resistor(R=47e3)
+    R2: electrical.Resistor = electrical.Resistor(R=10e3)
+    Re: electrical.Resistor = electrical.Resistor(R=1e3)
+    Ce: electrical.Capacitor = electrical.Capacitor(C=1e-4)
+    T: electrical.NPN = electrical.NPN()
+    ground: electrical.Ground = electrical.Ground()
+
+    def equations(self) -> Equations:
+        yield connect(self.supply.p, self.Rc.p, self.R1.p)
+        yield connect(self.R1.n, self.R2.p, self.T.B)
+        yield connect(self.Rc.n, self.T.C)
+        yield connect(self.T.E, self.Re.p, self.Ce.p)
+        yield connect(self.supply.n, self.R2.n, self.Re.n, self.Ce.n, self.ground.p)
+
+
+@pytest.mark.slow
+def test_the_bias_of_a_transistor() -> None:
+    """From nothing charged, Newton's method alone does not find it: exponentials of 27 thermal voltages."""
+    bias = ac.compile(Amplifier()).steady_state()
+    vb, vc, ve = bias["T.B.v"], bias["T.C.v"], bias["T.E.v"]
+    ib, ic = bias["T.B.i"], bias["T.C.i"]
+    assert_allclose([(12.0 - vb) / 47e3 - vb / 10e3, (12.0 - vc) / 2.2e3, ve / 1e3], [ib, ic, ib + ic], rtol=1e-9)
+    assert_allclose(ic / ib, 50.0 * (1.0 + 0.02 * (vc - vb)), rtol=1e-6)
+    assert 0.7 < vb - ve < 0.8
+
+
 class Stepped(Component):
     """A lag whose wanted value is a discrete variable, and one from the library."""
 
