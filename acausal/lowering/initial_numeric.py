@@ -129,6 +129,7 @@ def _largest(j: Any) -> Floats:
     return np.abs(np.nan_to_num(j)).max(axis=1, initial=0.0)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # a step that goes too far is halved
 def root_near(system: _Part, z: Floats) -> Floats:
     """Root of `system` near `z`: steps of minimum norm, halved until the residual falls."""
     z = z.copy()

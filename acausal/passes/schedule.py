@@ -10,6 +10,7 @@ import numpy as np
 
 from ..dae.strong_components import block_lower_triangular
 from ..dae.tearing import tear
+from ..errors import StructureError
 from ..language.flat_model import Family
 from ..language.template import Floats, Ints
 from ..symbolic.differentiate import partial
@@ -177,6 +178,10 @@ def _single_kernel(residual: Expr, slot: int, others: list[int]) -> Kernel:
     return Kernel(1, (), (0,), (form,))
 
 
+class Dependent(ValueError):
+    """Equations that are dependent once those that can be solved are put into the others."""
+
+
 class _BlockBuilder:
     """Collects simultaneous blocks and groups those of equal shape."""
 
@@ -207,9 +212,24 @@ class _BlockBuilder:
         values = self.defaults[list(parameters)]
         signature = (*((id(residual), slots, pars) for residual, slots, pars in shape), tuple((values == 0).tolist()))
         if signature not in self.kernels:
-            self.kernels[signature] = self._kernel(shape, len(unknowns), self._preference(unknowns), values)
+            try:
+                self.kernels[signature] = self._kernel(shape, len(unknowns), self._preference(unknowns), values)
+            except Dependent as error:
+                raise self._dependent(members) from error
         columns = [*unknowns, *externals]
         self.collected.setdefault((level, signature), []).append((columns, list(parameters), members))
+
+    def _dependent(self, members: Ints) -> StructureError:
+        flat, rows = self.reduced.flat, [self.reduced.rows.locate(int(row)) for row in members]
+        names = [self.reduced.name(int(v)) for v in self.assignment[members]]
+        return StructureError(
+            f"`{flat.model_name}` cannot be solved: put into each other, these equations lose "
+            f"{', '.join(f'`{name}`' for name in names)}, although their structure looks regular:\n"
+            + "\n".join(f"    {flat.equation_line(*row)}" for row in rows)
+            + "\nTry: simplify them by hand. Where one is a multiple of another plus a condition, write the condition.",
+            equations=[flat.equation_text(*row) for row in rows], unknowns=names,
+            components=dict.fromkeys(flat.equation_place(*row)[0] for row in rows),
+        )  # fmt: skip
 
     def _preference(self, unknowns: list[int]) -> list[float]:
         """Variables with a start value make good tearing variables: they have a guess."""
@@ -290,8 +310,14 @@ def _dividing(solutions: Sequence[Expr], divisor: Expr) -> Expr | None:
 
 
 def cramer(matrix: list[list[Expr]], rhs: list[Expr]) -> tuple[list[Expr], Expr]:
-    """Solution of a linear system of up to three unknowns, and its determinant."""
+    """Solution of a linear system of up to three unknowns, and its determinant.
+
+    Raises:
+        Dependent: the determinant is zero.
+    """
     determinant = _determinant(matrix)
+    if determinant is ZERO:
+        raise Dependent
     out: list[Expr] = []
     for j in range(len(rhs)):
         replaced = [[rhs[i] if k == j else entry for k, entry in enumerate(line)] for i, line in enumerate(matrix)]

@@ -133,3 +133,42 @@ def test_the_exact_solution(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(8, 60))
 def test_many_exact_solutions(seed: int) -> None:
     check(seed, "diffrax" if seed % 10 == 0 else "native")
+
+
+def mixed(seed: int) -> tuple[Hessenberg, Component]:
+    """A system whose equations have multiples of others added, by factors that depend on time and on the unknowns."""
+    dae = draw(seed)
+    plain = type(dae.model())
+
+    def equations(self: Any) -> Equations:
+        rng = np.random.default_rng(1000 + seed)
+        rows = [equation.lhs - equation.rhs for equation in plain.equations(self)]
+        unknowns = [getattr(self, name) for name, _, _ in dae.names()]
+        for _ in range(int(rng.integers(1, len(rows) + 1))):
+            i, j = rng.choice(len(rows), 2, replace=False)
+            c, v = float(np.round(rng.uniform(0.5, 2), 2)), unknowns[int(rng.integers(len(unknowns)))]
+            rows[i] = rows[i] + (c, c * ac.time, c * ac.cos(ac.time), c * v)[int(rng.integers(4))] * rows[j]
+        for row in rows:
+            yield row == 0
+
+    made = types.new_class("Mixed", (plain,), exec_body=lambda ns: ns.update(equations=equations, __module__=__name__))
+    return dae, cast("type[Component]", made)()
+
+
+@pytest.mark.slow
+def test_mixed_equations_give_the_exact_solution_or_an_error() -> None:
+    """Sums with multiples of other equations may be singular on the solution only, which no structure shows."""
+    t, solved = np.linspace(0.0, 1.0, 5), 0
+    for seed in range(16):
+        dae, model = mixed(seed)
+        try:
+            system = ac.compile(model)
+            solution = system.simulate(1.0, saveat=t, rtol=1e-9, engine="native", max_steps=20_000)
+        except ac.AcausalError as error:
+            assert len(str(error)) > 40
+            continue
+        solved += 1
+        assert system.report().index == dae.index
+        for name, wave, order in dae.names():
+            np.testing.assert_allclose(solution[name], wave.at(t, np.sin, order), atol=1e-6, err_msg=f"{seed} {name}")
+    assert solved >= 10
