@@ -81,7 +81,7 @@ class ParameterProgram:
 
         Args:
             random: draws them.
-            keep_zeros: whether a value of zero stays one.
+            keep_zeros: whether a value of zero stays one, also that of a difference of equal ones.
         """
         noise = random.uniform(0.02, 0.2, self.n_p)
         values = np.where(np.isnan(self.base), 1.0 + noise, self.base * (1.0 + noise))
@@ -90,7 +90,8 @@ class ParameterProgram:
         held = self.n_p - self.flat.slots.count
         values[held:] = self.base[held:]
         for assignment in self.ordered:
-            values[assignment.targets] = evaluate_assignment(assignment, values, np)
+            new, targets = evaluate_assignment(assignment, values, np), assignment.targets
+            values[targets] = np.where(self.default[targets] == 0.0, 0.0, new) if keep_zeros else new
         return values
 
     def starts(self, p: Any, xp: Any) -> Any:

@@ -107,3 +107,16 @@ def cauer_low_pass_sc() -> Component:
         R3=_switched_capacitor(1.0), Rp1=_switched_capacitor(1.0), R7=_switched_capacitor(1.0),
         R10=_switched_capacitor(1.0), R11=_switched_capacitor(1.0),
     )  # fmt: skip
+
+
+def singular_transformer() -> Component:
+    """ModelicaTest.Electrical.SingularTransformer: coupled so well that its currents are one state."""
+    return assemble(
+        "sineVoltage1.n - ground1.p - basicTransformer.n1", "sineVoltage1.p - resistor11.p",
+        "load1.n - ground2.p - basicTransformer.n2", "resistor12.n - load1.p", "basicTransformer.p1 - resistor11.n",
+        "basicTransformer.p2 - resistor12.p",
+        sineVoltage1=electrical.SineVoltage(V=220.0, f=50.0), ground1=electrical.Ground(),
+        resistor11=electrical.Resistor(R=0.1), resistor12=electrical.Resistor(R=0.1), load1=electrical.Resistor(R=2.0),
+        ground2=electrical.Ground(),
+        basicTransformer=electrical.Transformer(L1=2.0, L2=2.0, M=2.0, i1=start(0.0, fixed=True)),
+    )  # fmt: skip

@@ -26,7 +26,7 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
     "CauerLowPassSC": msl_networks.cauer_low_pass_sc, "ParallelResonance": msl_resonance.parallel_resonance,
     "SeriesResonance": msl_resonance.series_resonance, "ResonanceCircuits": msl_resonance.resonance_circuits,
     "ElectricalGenerationOfFMUs": msl_resonance.electrical_signals,
-    "ThermalGenerationOfFMUs": msl_resonance.thermal_signals,
+    "ThermalGenerationOfFMUs": msl_resonance.thermal_signals, "SingularTransformer": msl_networks.singular_transformer,
 }  # fmt: skip
 
 

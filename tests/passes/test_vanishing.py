@@ -103,6 +103,28 @@ def test_random_ladders_are_those_without_the_elements(L: list[float], C: list[f
         assert np.allclose(run[f"g{k}.v"], reference[f"g{k}.v"], atol=1e-7)
 
 
+def _coupled(L: float) -> Component:
+    return assemble(
+        "source.p - r.p", "r.n - trafo.p1", "trafo.p2 - load.p", "source.n - trafo.n1 - trafo.n2 - load.n - ground.p",
+        source=el.ConstantVoltage(V=6.0), r=el.Resistor(R=1.0), load=el.Resistor(R=2.0), ground=el.Ground(),
+        trafo=el.Transformer(L1=L, L2=L, M=2.0, i1=start(2.0, fixed=True)),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_difference_of_equal_parameters_is_a_zero(engine: Any) -> None:
+    """Of two windings without leakage the sum of the currents is the state: ``v = 4 exp(-t/3)``, from no field."""
+    system = ac.compile(_coupled(2.0))
+    assert len(system.states) == 1
+    run = system.simulate(3.0, rtol=1e-9, engine=engine)
+    v = 4 * np.exp(-np.asarray(run.t) / 3)
+    assert np.allclose(run["trafo.v1"], v, atol=1e-7) and np.allclose(run["trafo.v2"], v, atol=1e-7)
+    assert np.allclose(run["trafo.i1"], 6 - v, atol=1e-7) and np.allclose(run["trafo.i2"], -v / 2, atol=1e-7)
+    with pytest.raises(DeclarationError, match=r"`trafo.L1` is built into the equations"):
+        system.simulate(1.0, parameters={"trafo.L1": 3.0})
+    assert len(ac.compile(_coupled(2.5)).states) == 2
+
+
 def test_a_mass_of_zero_between_springs() -> None:
     """Index 1: the place of the massless joint follows from the forces of both springs."""
     model = assemble(

@@ -163,6 +163,8 @@ class Transformer(TwoPort):
     L1: Parameter = Parameter(1.0, unit="H", doc="primary inductance")
     L2: Parameter = Parameter(1.0, unit="H", doc="secondary inductance")
     M: Parameter = Parameter(1.0, unit="H", doc="coupling inductance")
+    leakage1: Parameter = Parameter(L1 - M, unit="H", doc="what L1 does not couple; follows from L1 and M")
+    leakage2: Parameter = Parameter(L2 - M, unit="H", doc="what L2 does not couple; follows from L2 and M")
     i1: Variable = Variable(unit="A", start=0.0, doc="current from p1 to n1")
     i2: Variable = Variable(unit="A", start=0.0, doc="current from p2 to n2")
 
@@ -170,7 +172,7 @@ class Transformer(TwoPort):
         yield from super().equations()
         yield self.v1 == self.L1 * der(self.i1) + self.M * der(self.i2)
         # the difference, so that L1 = L2 = M loses a state visibly
-        yield self.v1 - self.v2 == (self.L1 - self.M) * der(self.i1) + (self.M - self.L2) * der(self.i2)
+        yield self.v1 - self.v2 == self.leakage1 * der(self.i1) - self.leakage2 * der(self.i2)
 
 
 class Winding(OnePort):
