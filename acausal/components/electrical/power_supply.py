@@ -31,7 +31,7 @@ class DCPowerSupply(TwoPin):
     Gcc: Parameter = Parameter(1e-3, unit="S", min=1e-15, doc="inner conductance at constant current")
     iBack: Parameter = Parameter(1e-3, unit="A", doc="current back into the supply that is allowed")
     v: Variable = Variable(unit="V", start=V0, doc="voltage from p to n")
-    i: Variable = Variable(unit="A", start=0.0, doc="current into p")
+    i: Variable = Variable(unit="A", start=-P0 / V0, doc="current into p")
     P: Variable = Variable(unit="W", doc="power, negative when delivered")
 
     @property
