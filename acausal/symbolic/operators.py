@@ -56,7 +56,8 @@ def _pow_base(a: Expr, b: Expr) -> Expr:
 
 
 def _pow_exponent(a: Expr, b: Expr) -> Expr:
-    return mul(power(a, b), _f("log", a))
+    """At a = 0 the limit for b > 0, where the logarithm alone is infinite."""
+    return mul(power(a, b), _f("log", make("where", (a * a > 0.0, a, ONE))))
 
 
 _ROWS: Final = [

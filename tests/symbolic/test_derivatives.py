@@ -80,6 +80,13 @@ def test_every_unary_rule(op: str) -> None:
         assert value(inverse(e), (at, 0.0, 0.0)) == pytest.approx(at, rel=1e-12)
 
 
+@pytest.mark.parametrize(("base", "exponent"), [(0.0, 1.0), (0.0, 1.5), (0.3, 1.5), (2.0, -1.0)])
+def test_a_power_by_its_exponent(base: float, exponent: float) -> None:
+    """Zero where the base is: the limit, though the logarithm is infinite."""
+    wanted = base**exponent * np.log(base) if base else 0.0
+    assert value(partial(x**y, y), (base, exponent, 0.0)) == wanted
+
+
 def test_derivatives_share_subexpressions() -> None:
     e = x
     for _ in range(30):
