@@ -159,6 +159,29 @@ def test_jit_vmap_and_batches_of_gradients(systems: dict[type, ac.System]) -> No
     np.testing.assert_allclose(jax.vmap(jax.grad(last))(ks), -2 * np.exp(-np.asarray(ks)), rtol=1e-7)
 
 
+class Resting(ac.Component):
+    """An oscillator at its equilibrium, until the equilibrium moves."""
+
+    y: ac.Variable = ac.Variable(start=1.0, fixed=True)
+    v: ac.Variable = ac.Variable(start=0.0, fixed=True)
+    u: ac.Parameter = ac.Parameter(1.0)
+
+    def equations(self) -> ac.Equations:
+        yield ac.der(self.y) == self.v
+        yield ac.der(self.v) == 100.0 * (self.u - self.y)
+
+
+def test_derivatives_of_a_solution_that_rests() -> None:
+    """y = u + (1 - u) cos(10 t): the solution at u = 1 takes any step, its derivative does not."""
+    system, t = ac.compile(Resting()), np.linspace(0.0, 1.0, 11)
+    for rtol in (1e-4, 1e-6, 1e-9):
+
+        def run(u: Any, rtol: float = rtol) -> Any:
+            return system.simulate(1.0, parameters={"u": u}, saveat=t, rtol=rtol, engine="native")["y"]
+
+        np.testing.assert_allclose(jax.jacfwd(run)(1.0), 1.0 - np.cos(10.0 * t), atol=100.0 * rtol)
+
+
 def test_gradient_of_a_constant_input(systems: dict[type, ac.System]) -> None:
     def last(u: Any) -> Any:
         return systems[Driven].simulate(1.0, inputs={"u": u}, rtol=1e-10, saveat=3, engine="native")["x"][-1]

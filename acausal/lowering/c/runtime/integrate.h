@@ -71,6 +71,9 @@ static AC_UNUSED int ac_integrate(ac_problem *q, ac_work *w, ac_control *k, void
     const double direction = q->t1 >= q->t_end ? 1.0 : -1.0;
     ac_begin(q, w, k, q->t_end);
     ac_save_start(q, w, tangents, q->t_end, direction);
+#ifdef AC_TANGENTS
+    if (tangents) ac_tangent_begin(w, tangents);
+#endif
 #if AC_NR > 0
     if (q->located) ac_arm(q, w, q->t_end);
 #endif
@@ -90,7 +93,10 @@ static AC_UNUSED int ac_integrate(ac_problem *q, ac_work *w, ac_control *k, void
         if (event > 1) event = 0;
 #endif
 #ifdef AC_TANGENTS
-        if (tangents) ac_step_tangent(w, tangents, t, step);
+        if (tangents) {
+            ac_step_tangent(w, tangents, t, step);
+            if (!ac_tangents_good(q, k, ac_tangent_error(q, w, tangents), fabs(step))) continue;
+        }
 #endif
         const int last = k->last && !event;
         const double t1 = last ? q->t1 : t + step;

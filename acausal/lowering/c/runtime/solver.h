@@ -95,6 +95,7 @@ typedef struct {
 #ifdef AC_TANGENTS
 typedef struct {
     ac_vector dc[AC_NC + 1], dz[AC_N], dz1[AC_N], dft[AC_N], dk[8][AC_N], dy[AC_N], dv[3][AC_N];
+    double size[AC_LANES];
 #ifdef AC_FAMILIES
     double all[AC_NALL];
     ac_vector d_all[AC_NALL], d_all_a[AC_NALL], second[AC_N];

@@ -164,3 +164,15 @@ static int ac_step(ac_problem *q, ac_work *w, ac_control *k, double t) {
         return AC_DONE;
     }
 }
+
+/* Whether the tangents of a step are good, too, which was good else; the next size follows from theirs where that is
+   smaller. Where they are not finite, or the step is as small as can be, there is no use in a smaller one. */
+static AC_UNUSED int ac_tangents_good(ac_problem *q, ac_control *k, double error, double size) {
+    const double next = size * ac_clip(0.9 * pow(ac_max(error, 1e-10), -0.2), 0.2, 8.0);
+    const int hopeless = error - error != 0.0 || size <= 1e-10 * fabs(q->t1 - q->t0);
+    if (error <= 1.0) k->h = ac_min(k->h, next);
+    if (error <= 1.0 || hopeless) return 1;
+    q->accepted--;
+    ac_reject(q, k, next);
+    return 0;
+}

@@ -52,3 +52,39 @@ static void ac_step_tangent(ac_work *w, ac_tangent_work *d, double t, double h) 
             for (int j = 0; j < 8; j++) d->dv[r][i] += ac_H[r][j] * d->dk[j][i];
         }
 }
+
+/* The solution may rest, and take long steps, while its tangents still move: their errors are held, too. What they are
+   for needs fewer digits than the solution, and of a tangent that hardly moves a state none are needed. */
+#define AC_TANGENT_LOOSE 100.0 /* tolerance of the tangents in units of that of the solution */
+#define AC_TANGENT_LEAST 1e-6  /* size that counts, in nominal values where a parameter changes by its own size */
+
+static void ac_tangent_grown(const ac_work *w, ac_tangent_work *d, const ac_vector *dz) {
+    (void)w; /* large models keep the nominal values there */
+    for (int i = 0; i < AC_NX; i++)
+        for (int lane = 0; lane < AC_LANES; lane++)
+            d->size[lane] = ac_max(d->size[lane], fabs(dz[i][lane]) / ac_nominal[i]);
+}
+
+/* Sizes of the tangents at the start of a stretch, in nominal values; the largest so far is what counts later. */
+static void ac_tangent_begin(const ac_work *w, ac_tangent_work *d) {
+    for (int lane = 0; lane < AC_LANES; lane++) {
+        double moved = 0.0;
+        for (int j = 0; j < AC_NP; j++)
+            moved = ac_max(moved, fabs(w->m.dp[j][lane]) / (w->p[j] != 0.0 ? fabs(w->p[j]) : 1.0));
+        d->size[lane] = AC_TANGENT_LEAST * moved;
+    }
+    ac_tangent_grown(w, d, d->dz);
+}
+
+/* Largest error of the tangents of the states in a step, in units of their tolerance. */
+static double ac_tangent_error(const ac_problem *q, const ac_work *w, ac_tangent_work *d) {
+    double worst = 0.0;
+    ac_tangent_grown(w, d, d->dz1);
+    for (int i = 0; i < AC_NX; i++)
+        for (int lane = 0; lane < AC_LANES; lane++) {
+            const double value = ac_max(fabs(d->dz[i][lane]), fabs(d->dz1[i][lane]));
+            const double scale = q->atol[i] * d->size[lane] + q->rtol * value;
+            if (scale > 0.0) worst = ac_worse(worst, fabs(d->dk[7][i][lane]) / scale);
+        }
+    return worst / AC_TANGENT_LOOSE;
+}
