@@ -247,7 +247,7 @@ class Point:
     """Values at one time, for evaluating pieces."""
 
     def __init__(self, t: float, values: Floats, p: Floats) -> None:
-        self.t, self.v, self.p = t, values, p
+        self.t, self.v, self.p = np.float64(t), values, p  # one that may divide
 
     def evaluate(self, piece: Piece) -> list[Any]:
         """Values of its expressions, each a number or (n,)."""

@@ -141,6 +141,7 @@ class Lowered:
     ) -> tuple[Environment, dict[int, Any]]:
         import jax.numpy as jnp
 
+        t = jnp.asarray(t, float)  # a number of Python's own would raise where it is divided by
         env = Environment(self.n_ids, jnp)
         env.put(self.schedule.states, x)
         if not solve:

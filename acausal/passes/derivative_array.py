@@ -6,12 +6,15 @@ Numerical Solution of Initial-Value Problems in DAEs, definition 2.2.2): the col
 independent of each other and of those of higher derivatives (the array is *1-full*, section 2.5).
 
 The structural index is an upper bound. It is too high where an unknown seems to follow from equations that cancel in
-it, as in the systems of Reissig, Martinson and Barton (2000). Ranks are those at points in general position, not at
-solutions.
+it, as in the systems of Reissig, Martinson and Barton (2000).
+
+Ranks are those at points in general position first. Where these say that the index is lower, they are taken again at
+points that solve the equations of the array: terms such as ``g(x)^3`` change the rank everywhere but there.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,6 +34,8 @@ if TYPE_CHECKING:
 LARGEST, LARGEST_EXPRESSIONS = 300, 10_000
 """Rows of the derivative array, and nodes of the expressions in its last derivatives, up to which it is set up."""
 POINTS = 2
+ITERATIONS, SOLVED = 20, 1e-9
+"""Gauss-Newton steps towards a solution, and the residual relative to the slopes that is one."""
 ZERO_BELOW, CLEAR_FROM = 1e-12, 1e-8
 """Singular values below the first, relative to the largest, are zero, those above the second are not; between them
 nothing is said."""
@@ -49,19 +54,29 @@ def differentiation_index(reduced: Reduced, structural: int, parameters: Paramet
         return structural
     array = _Array(reduced, structural)
     random = np.random.default_rng(1996)
-    points = tuple(map(np.array, zip(*(array.point(parameters(random), random) for _ in range(POINTS)), strict=True)))
-    known: list[Floats] = []
+    points = array.points(parameters, random)
     for k in range(structural):
         array.extend()
-        if len(postorder([family.residual for family in array.families])) > LARGEST_EXPRESSIONS:
+        if len(postorder([family.residual for family in array.families[-1]])) > LARGEST_EXPRESSIONS:
             return structural
-        known += [array.slopes(family, *points) for family in array.families]
-        found = [array.determines(matrix) for matrix in np.concatenate(known, axis=1)]
-        if None in found:
-            return structural
-        if all(found):
-            return k
-    return structural
+        if array.determines(k, points) is not False:
+            break
+    else:
+        return structural
+    for _ in range(k + 1, structural):
+        array.extend()
+    if not array.solve(points):
+        return structural
+    return next((order for order in range(k, structural) if array.determines(order, points)), structural)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Points:
+    """Values of all columns (points, columns), of the parameters, and the times."""
+
+    values: Floats
+    parameters: Floats
+    times: Floats
 
 
 class _Array:
@@ -69,7 +84,7 @@ class _Array:
 
     def __init__(self, reduced: Reduced, orders: int) -> None:
         self.flat: FlatModel = reduced.flat
-        self.families: list[Family] = []  # the highest derivatives so far
+        self.families: list[list[Family]] = []  # by how often they have been differentiated
         self.first = reduced.families
         parent = reduced.flat.parent[: len(reduced.unknown)]  # index reduction has added to it
         lowest = np.zeros(0, np.int64)
@@ -87,31 +102,32 @@ class _Array:
         derivative_of = [-1] * len(parent)
         for column in np.flatnonzero(parent >= 0).tolist():
             derivative_of[int(parent[column])] = column
+        self.lower: list[int] = []
         self.needed: list[int] = []
         self.higher: list[int] = []
         for base, order in wanted.items():
             column = base
             for j in range(order + orders + 1):
-                if j == order:
-                    self.needed.append(column)
-                elif j > order:
-                    self.higher.append(column)
+                (self.lower if j < order else self.needed if j == order else self.higher).append(column)
                 if derivative_of[column] < 0:
                     derivative_of[column] = len(derivative_of)
                     derivative_of.append(-1)
                 column = derivative_of[column]
         self.derivative_of: Ints = np.array(derivative_of, np.int64)
 
-    def point(self, parameters: Floats, random: np.random.Generator) -> tuple[Floats, Floats, float]:
-        """Values of all columns near the start values, of the parameters, and a time."""
-        values = random.uniform(0.3, 1.3, len(self.derivative_of)) * random.choice([-1.0, 1.0], len(self.derivative_of))
+    def points(self, parameters: Parameters, random: np.random.Generator) -> _Points:
+        """Points in general position near the start values."""
+        shape = POINTS, len(self.derivative_of)
+        values = random.uniform(0.3, 1.3, shape) * random.choice([-1.0, 1.0], shape)
         start = np.nan_to_num(self.flat.start[: self.flat.n_var])
-        values[: len(start)] = start + np.maximum(np.abs(start), 1.0) * np.abs(0.1 * values[: len(start)])
-        return values, parameters, float(random.uniform(0.1, 1.0))
+        near = np.abs(0.1 * values[:, : len(start)])
+        values[:, : len(start)] = start + np.maximum(np.abs(start), 1.0) * near
+        drawn = np.stack([parameters(random) for _ in range(POINTS)])
+        return _Points(values, drawn, random.uniform(0.1, 1.0, POINTS))
 
     def extend(self) -> None:
         """Differentiate once more."""
-        self.families = [self._derivative(f) for f in self.families] if self.families else self.first
+        self.families.append([self._derivative(f) for f in self.families[-1]] if self.families else self.first)
 
     def _derivative(self, family: Family) -> Family:
         k = family.var_rows.shape[1]
@@ -125,8 +141,30 @@ class _Array:
         both = np.concatenate([family.var_rows, self.derivative_of[family.var_rows]], axis=1)
         return Family(*canonical(residual, both, family.par_rows), family.source, family.ordinal)
 
-    def determines(self, matrix: Floats) -> bool | None:
-        """Whether the array, of these slopes, determines the wanted derivatives; None where numbers do not say."""
+    def solve(self, points: _Points) -> bool:
+        """Move points, in place, to where all equations of the array hold: Gauss-Newton steps of least norm."""
+        columns = [*self.lower, *self.needed, *self.higher]
+        for _ in range(ITERATIONS):
+            residuals, matrices = self._linearized(points, columns, len(self.families))
+            if not (np.isfinite(residuals).all() and np.isfinite(matrices).all()):
+                return False
+            size = np.abs(matrices).max(axis=2, initial=0.0)
+            size = np.where(size > 0, size, 1.0)
+            if (np.abs(residuals) <= SOLVED * size).all():
+                return True
+            for k in range(POINTS):
+                matrix, rest = matrices[k] / size[k][:, None], residuals[k] / size[k]
+                points.values[k, columns] -= np.linalg.lstsq(matrix, rest, rcond=1e-11)[0]
+        return False
+
+    def determines(self, order: int, points: _Points) -> bool | None:
+        """Whether the array up to an order determines the wanted derivatives; None where numbers do not say."""
+        _, matrices = self._linearized(points, [*self.needed, *self.higher], order + 1)
+        found = [self._is_full(matrix) for matrix in matrices]
+        return None if None in found else all(found)
+
+    def _is_full(self, matrix: Floats) -> bool | None:
+        """Whether the first columns, of the wanted derivatives, are independent of each other and of the others."""
         if not np.isfinite(matrix).all():
             return None
         for axis in (1, 0, 1):
@@ -144,25 +182,33 @@ class _Array:
         rank = _rank(np.concatenate([[1.0], np.linalg.svd(free, compute_uv=False)]))
         return None if rank is None else rank == 1 + len(self.needed)
 
-    def slopes(self, family: Family, values: Floats, parameters: Floats, time: Floats) -> Floats:
-        """Jacobians of a family with respect to the wanted and the higher derivatives: (points, rows, columns)."""
+    def _linearized(self, points: _Points, columns: list[int], levels: int) -> tuple[Floats, Floats]:
+        """Residuals (points, rows) and Jacobians (points, rows, columns) of the first levels."""
+        place = np.full(len(self.derivative_of), -1, np.int64)
+        place[columns] = np.arange(len(columns))
+        parts = [self._family(f, points, place, len(columns)) for level in self.families[:levels] for f in level]
+        residuals, matrices = zip(*parts, strict=True)
+        return np.concatenate(residuals, axis=1), np.concatenate(matrices, axis=1)
+
+    def _family(self, family: Family, points: _Points, place: Ints, n_columns: int) -> tuple[Floats, Floats]:
+        """Residuals and Jacobians of one family."""
 
         def leaf(node: Expr) -> Floats:
             if node.op == "time":
-                return time[:, None]
+                return points.times[:, None]
             if node.op == "par":
-                return parameters[:, family.par_rows[:, node.value]]
-            return values[:, family.var_rows[:, node.value]]
+                return points.parameters[:, family.par_rows[:, node.value]]
+            return points.values[:, family.var_rows[:, node.value]]
 
-        place = np.full(len(self.derivative_of), -1, np.int64)
-        place[[*self.needed, *self.higher]] = np.arange(len(self.needed) + len(self.higher))
-        out, row = np.zeros((len(time), family.size, len(self.needed) + len(self.higher))), np.arange(family.size)
-        for node, slope in Sampler(leaf, lambda: True, lambda: 1.0).gradient(family.residual).items():
+        sampler, row = Sampler(leaf, lambda: True, lambda: 1.0), np.arange(family.size)
+        value = np.broadcast_to(sampler.values((family.residual,))[0], (POINTS, family.size))
+        out = np.zeros((POINTS, family.size, n_columns))
+        for node, slope in sampler.gradient(family.residual).items():
             if node.op == "var":
                 at = place[family.var_rows[:, node.value]]
                 kept = at >= 0
                 out[:, row[kept], at[kept]] += np.broadcast_to(slope, out.shape[:2])[:, kept]
-        return out
+        return value, out
 
 
 def _base(column: int, parent: Ints) -> tuple[int, int]:

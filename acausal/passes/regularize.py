@@ -15,6 +15,7 @@ import numpy as np
 
 from ..errors import StructureError
 from ..language.flat_model import Family
+from ..language.template import Ints
 from .aliases import Reduced
 from .combine import Replacement, combine, describe
 from .singular_blocks import Parameters, always_singular, point_nearby
@@ -66,9 +67,10 @@ def _replaced(current: Reduced, index: IndexReduced, replacements: list[Replacem
         keep = ~drop[offset[k] : offset[k + 1]]
         families.append(current.families[k] if keep.all() else current.families[k].select(keep))
     families = merge([*families, *(r.family for r in replacements)])
-    # derivatives that no equation holds any more are no unknowns
+    # derivatives that nothing holds any more are no unknowns
     unknown, derivative_of = index.unknown.copy(), index.derivative_of.copy()
     held = np.zeros(len(unknown), bool)
+    held[_held_elsewhere(current)] = True
     for family in families:
         held[family.var_rows.ravel()] = True
     while True:
@@ -84,6 +86,14 @@ def _replaced(current: Reduced, index: IndexReduced, replacements: list[Replacem
         keys = zip(family.source.tolist(), family.ordinal.tolist(), strict=True)
         consumed.update(dict.fromkeys(keys, replacement.consumed))
     return replace(current, flat=flat, families=families, unknown=unknown, consumed=consumed)
+
+
+def _held_elsewhere(current: Reduced) -> Ints:
+    """What stands for variables of the model, or is in initial equations, conditions and actions."""
+    flat = current.flat
+    others = (*flat.initial, *flat.actions, *flat.slots.pieces)
+    ids = np.unique(np.concatenate([np.arange(flat.n_var), *(family.var_rows.ravel() for family in others)]))
+    return current.representative[ids[current.sign[ids] != 0]]
 
 
 def _replacements(index: IndexReduced, parameters: Parameters) -> list[Replacement]:

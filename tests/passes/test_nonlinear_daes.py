@@ -135,8 +135,9 @@ def test_many_exact_solutions(seed: int) -> None:
     check(seed, "diffrax" if seed % 10 == 0 else "native")
 
 
-def mixed(seed: int) -> tuple[Hessenberg, Component]:
-    """A system whose equations have multiples of others added, by factors that depend on time and on the unknowns."""
+def mixed(seed: int, power: int = 1) -> tuple[Hessenberg, Component]:
+    """A system whose equations have multiples of others (or their powers) added, by factors that vary with time and with
+    the unknowns."""
     dae = draw(seed)
     plain = type(dae.model())
 
@@ -147,7 +148,7 @@ def mixed(seed: int) -> tuple[Hessenberg, Component]:
         for _ in range(int(rng.integers(1, len(rows) + 1))):
             i, j = rng.choice(len(rows), 2, replace=False)
             c, v = float(np.round(rng.uniform(0.5, 2), 2)), unknowns[int(rng.integers(len(unknowns)))]
-            rows[i] = rows[i] + (c, c * ac.time, c * ac.cos(ac.time), c * v)[int(rng.integers(4))] * rows[j]
+            rows[i] = rows[i] + (c, c * ac.time, c * ac.cos(ac.time), c * v)[int(rng.integers(4))] * rows[j] ** power
         for row in rows:
             yield row == 0
 
@@ -172,3 +173,11 @@ def test_mixed_equations_give_the_exact_solution_or_an_error() -> None:
         for name, wave, order in dae.names():
             np.testing.assert_allclose(solution[name], wave.at(t, np.sin, order), atol=1e-6, err_msg=f"{seed} {name}")
     assert solved >= 10
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [2, 9, 22])
+def test_the_index_is_that_of_solutions(seed: int) -> None:
+    """The cube of an equation changes the rank of the derivative array everywhere but where the equation holds."""
+    dae, model = mixed(seed, power=3)
+    assert ac.compile(model).report().index == dae.index

@@ -501,3 +501,42 @@ def test_a_name_for_a_derivative_is_an_algebraic_variable() -> None:
             yield self.z**3 + self.z == -self.x
 
     assert ac.compile(Semi()).report().structural_index == 1
+
+
+class Held(Component):
+    """``x = sin t``, hidden in a combination without the derivatives of x and v; z is a name for ``der(v)``."""
+
+    x: Variable = Variable(start=0.0)
+    v: Variable = Variable(start=1.0)
+    z: Variable = Variable()
+
+    def equations(self) -> Equations:
+        t = ac.time
+        yield 2 * der(self.x) == 2 * self.v + ac.exp(-t)
+        yield der(self.v) == self.z
+        yield self.x - ac.sin(t) + ac.cos(t) * (der(self.x) - self.v - 0.5 * ac.exp(-t)) == 0
+
+
+def test_a_derivative_that_a_variable_stands_for_is_not_lost() -> None:
+    system = ac.compile(Held())
+    assert system.report().structural_index == 3
+    solution = system.simulate(1.0)
+    t = np.asarray(solution.t)
+    assert np.allclose(solution["z"], 0.5 * np.exp(-t) - np.sin(t), atol=1e-12)
+
+
+def test_a_derivative_in_a_condition_is_not_lost() -> None:
+    class Watched(Component):
+        """``x = -cos t``, of which no equation needs the derivative."""
+
+        x: Variable = Variable(start=1.0)
+        y: Variable = Variable(start=0.0)
+        n: ac.Discrete = ac.Discrete(start=0)
+
+        def equations(self) -> Equations:
+            yield der(self.x) + der(self.y) == -self.x
+            yield self.x + self.y == ac.sin(ac.time)
+            yield ac.when(der(self.x) > 0.5, {self.n: 1})
+
+    solution = ac.compile(Watched()).simulate(1.0)
+    assert [event.t for event in solution.events] == [pytest.approx(np.arcsin(0.5), abs=1e-9)]

@@ -9,7 +9,7 @@ import pytest
 
 import acausal as ac
 from acausal import Component, Equations, Variable, der
-from acausal.errors import SimulationError
+from acausal.errors import InitializationError, SimulationError
 
 ENGINES = ("native", "diffrax")
 
@@ -81,3 +81,18 @@ def test_two_equations_that_touch_on_the_solution_only(engine: Any) -> None:
 
     with pytest.raises(SimulationError, match=r"do not determine `x`, `y`"):
         ac.compile(WithState()).simulate(2.0, engine=engine)
+
+
+def test_a_start_at_which_time_divides() -> None:
+    class Begins(Component):
+        """``1/time`` at time 0."""
+
+        x: Variable = Variable(start=1.0, fixed=True)
+        y: Variable = Variable(start=2.0, fixed=True)
+
+        def equations(self) -> Equations:
+            yield der(self.x) == -self.x
+            yield self.y == self.x + ac.cos(ac.time) / ac.time
+
+    with pytest.raises(InitializationError, match=r"(?s)found no consistent start.*`y` has the fixed start value 2"):
+        ac.compile(Begins()).simulate(1.0)
