@@ -136,10 +136,9 @@ def test_many_exact_solutions(seed: int) -> None:
 
 
 def mixed(seed: int, power: int = 1) -> tuple[Hessenberg, Component]:
-    """A system whose equations have multiples of others (or their powers) added, by factors that vary with time and with
-    the unknowns."""
+    """A system whose equations have multiples of others (or their powers) added, by factors that vary."""
     dae = draw(seed)
-    plain = type(dae.model())
+    plain: Any = type(dae.model())
 
     def equations(self: Any) -> Equations:
         rng = np.random.default_rng(1000 + seed)
