@@ -168,7 +168,7 @@ def _declared(flat: FlatModel) -> int:
     return sum(f.size for f in flat.families) + len(flat.alias_a) + len(flat.zero)
 
 
-def _extended(reduced: Reduced, n: int) -> Any:
+def _extended(reduced: Reduced, n: int) -> tuple[Ints, Ints]:
     """Representative and sign of all variables, those that index reduction added included."""
     more = n - len(reduced.representative)
     return (
