@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from typing import Literal
 
 import numpy as np
@@ -32,10 +33,16 @@ def assert_equal(found: dict[str, np.ndarray], wanted: dict[str, np.ndarray]) ->
 def test_bonds_are_components(
     hydraulics: Literal["simplified", "extended"], joint: Literal["compliant", "rigid"]
 ) -> None:
-    """Two steps, with changed parameters in every part."""
-    one, two = (
-        signals(reference_crane(hydraulics, joint, "step", form, **CHANGES)) for form in ("components", "bonds")
-    )
+    """Two steps, with changed parameters in every part.
+
+    Flows that follow the valve at once through a rigid joint make the speeds jump with the reference: that is said.
+    """
+    jumps = (hydraulics, joint) == ("simplified", "rigid")
+    impulse = pytest.warns(UserWarning, match="At t = (2|12) s this equation jumps")
+    with impulse if jumps else nullcontext():
+        one, two = (
+            signals(reference_crane(hydraulics, joint, "step", form, **CHANGES)) for form in ("components", "bonds")
+        )
     assert len(one) == {"simplified": 7, "extended": 12}[hydraulics]
     assert_equal(two, one)
 
