@@ -110,8 +110,8 @@ def solved(seed: int, engine: Any) -> bool:
 
 
 def test_the_exact_solution_or_an_error() -> None:
-    count = sum(solved(seed, "diffrax" if seed % 20 == 0 else "native") for seed in range(40))
-    assert count >= 36
+    count = sum(solved(seed, "diffrax" if seed == 0 else "native") for seed in range(16))
+    assert count >= 14
 
 
 @pytest.mark.parametrize("seed", [304, 392])
@@ -123,7 +123,7 @@ def test_combinations_whose_terms_cancel_when_they_are_collected(seed: int) -> N
 def test_the_index_is_right_and_the_structural_one_an_upper_bound() -> None:
     """Where variables mix, an algebraic one seems to follow from equations that cancel in it."""
     excess: list[int] = []
-    for dae in map(draw, range(40)):
+    for dae in map(draw, range(20)):
         report = ac.compile(dae.model()).report()
         assert report.index == dae.index
         excess.append(report.structural_index - report.index)
@@ -133,10 +133,10 @@ def test_the_index_is_right_and_the_structural_one_an_upper_bound() -> None:
 
 @pytest.mark.slow
 def test_many_indices() -> None:
-    for dae in map(draw, range(40, 300)):
+    for dae in map(draw, range(20, 300)):
         assert ac.compile(dae.model()).report().index == dae.index
 
 
 @pytest.mark.slow
 def test_many_linear_daes() -> None:
-    assert sum(solved(seed, "native") for seed in range(40, 300)) >= 240
+    assert sum(solved(seed, "native") for seed in range(16, 300)) >= 260
