@@ -124,6 +124,23 @@ class StickSlip(Component, partial=True):
         return where(self.locked > 0.5, self.holds, where(self.free > 0.5, 0.0 * sliding, sliding))
 
 
+def not_continued_below_zero(field: str, values: Sequence[float], value: Expr, idle: Expr | None = None) -> Equations:
+    """The assertion that the line through the last two points of a table of friction is not followed below zero.
+
+    Friction below zero drives: a table of falling friction (Stribeck) may end at a speed that the model exceeds.
+
+    Args:
+        field: the field that holds the table.
+        values: the friction in its rows.
+        value: what the table says at the present speed.
+        idle: where there is no friction, whatever the table says.
+    """
+    if len(values) > 1 and values[-1] < values[-2]:
+        holds = value >= 0.0 if idle is None else (value >= 0.0) | idle
+        text = f"beyond its last row `{field}` is continued below zero, and drives: end it with a row at a higher speed"
+        yield ac.assert_(ac.noevent(holds), text)
+
+
 REGULARIZATIONS = ("Exp", "Sine", "Linear", "CoSine")
 """Values of `reg`, as in Modelica.Blocks.Types.Regularization."""
 

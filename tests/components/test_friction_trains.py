@@ -11,10 +11,22 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import acausal as ac
-from acausal import Component, DeclarationError, Equations, Parameter, SimulationError, connect, inner, start
-from acausal.components import blocks, rotational
+from acausal import (
+    Component,
+    DeclarationError,
+    Equations,
+    Parameter,
+    SimulationError,
+    Variable,
+    connect,
+    der,
+    inner,
+    start,
+)
+from acausal.components import blocks, rotational, thermal
 from acausal.components import multibody as mb
 from acausal.components import translational as tr
+from acausal.components.examples import assemble
 
 BOTH = ["native", pytest.param("diffrax", marks=pytest.mark.slow)]
 
@@ -271,3 +283,113 @@ def test_a_mass_that_starts_beyond_its_stops_is_an_error() -> None:
         assert 0.2 <= system.simulate(0.1, initial=initial)["mass.s"][-1] < 0.8
     with pytest.raises(SimulationError, match="start between smin and smax"):
         system.simulate(0.1, parameters={"mass.L": 1.0})
+
+
+FALLING = [[0.0, 0.4], [10.0, 0.2]]
+
+
+@pytest.mark.parametrize("engine", BOTH)
+@pytest.mark.parametrize(
+    ("rotor", "friction", "field"),
+    [
+        (rotational.Inertia(), rotational.BearingFriction(tau_pos=FALLING), "tau_pos"),
+        (rotational.Inertia(), rotational.Brake(mu_pos=FALLING), "mu_pos"),
+        (tr.Mass(), tr.SupportFriction(f_pos=FALLING), "f_pos"),
+        (tr.Mass(), tr.Brake(mu_pos=FALLING), "mu_pos"),
+    ],
+)
+def test_friction_is_not_continued_to_where_it_drives(
+    rotor: Component, friction: Component, field: str, engine: Any
+) -> None:
+    """Falling friction is continued by a line, beyond 20 rad/s to less than none."""
+    pressed = ["press.y - friction.f_normalized"] if field == "mu_pos" else []
+    model = assemble(
+        "rotor.flange_b - friction.flange_a", *pressed, rotor=rotor, friction=friction, press=blocks.Constant(k=1.0)
+    )
+    speed = "rotor.v" if isinstance(rotor, tr.Mass) else "rotor.w"
+    system = ac.compile(model)
+    slow = system.simulate(1.0, initial={speed: 19.0}, engine=engine)
+    assert 18.0 < slow[speed][-1] < 19.0
+    text = rf"assertion of friction .* beyond its last row `{field}` is continued below zero, and drives: end it with"
+    with pytest.raises(SimulationError, match=text):
+        system.simulate(1.0, initial={speed: 30.0}, engine=engine)
+
+
+@pytest.mark.parametrize("clutch", [rotational.Clutch(mu_pos=FALLING), rotational.OneWayClutch(mu_pos=FALLING)])
+def test_a_clutch_that_is_open_may_turn_faster_than_its_table(clutch: Component) -> None:
+    model = assemble(
+        "press.y - clutch.f_normalized", "slow.flange_b - clutch.flange_a", "clutch.flange_b - fast.flange_a",
+        press=blocks.Constant(k=0.0), clutch=clutch, slow=rotational.Inertia(w=start(0.0, fixed=True)),
+        fast=rotational.Inertia(w=start(30.0, fixed=True)),
+    )  # fmt: skip
+    system = ac.compile(model)
+    assert system.simulate(1.0)["fast.w"][-1] == 30.0
+    with pytest.raises(SimulationError, match=r"assertion of clutch .* `mu_pos` is continued below zero"):
+        system.simulate(1.0, parameters={"press.k": 1.0})
+
+
+@pytest.mark.parametrize(
+    ("last", "text"),
+    [
+        ((10.0, 0.95, 0.9, 1.0, 1.0), "lossTable` is continued to eta_mf1 above 1"),
+        ((10.0, 0.9, 0.95, 1.0, 1.0), "lossTable` is continued to eta_mf2 above 1"),
+        ((10.0, 0.9, 0.9, 0.4, 1.0), "lossTable` is continued to tau_bf1 below 0"),
+        ((10.0, 0.9, 0.9, 1.0, 0.4), "lossTable` is continued to tau_bf2 below 0"),
+    ],
+)
+def test_losses_are_not_continued_to_where_they_drive(last: tuple[float, ...], text: str) -> None:
+    model = assemble(
+        "motor.flange - rotor.flange_a", "rotor.flange_b - gear.flange_a", "gear.flange_b - load.flange_a",
+        motor=rotational.ConstantTorque(tau_constant=20.0), rotor=rotational.Inertia(w=start(0.0, fixed=True)),
+        gear=rotational.LossyGear(lossTable=[[0.0, 0.9, 0.9, 1.0, 1.0], list(last)]), load=rotational.Inertia(),
+    )  # fmt: skip
+    system = ac.compile(model)
+    slow = system.simulate(0.5)
+    assert 2.0 < slow["rotor.w"][-1] < 10.0
+    with pytest.raises(SimulationError, match=rf"assertion of gear .*{text}: end it with a row at a higher speed"):
+        system.simulate(1.0, initial={"rotor.w": 40.0})
+
+
+class Housing(Component):
+    """Motor, lossy gear and brake in a housing on an elastic mount; all that is lost heats one body."""
+
+    sine: blocks.Sine = blocks.Sine(amplitude=30.0, f=0.4)
+    motor: rotational.Torque = rotational.Torque(useSupport=True)
+    rotor: rotational.Inertia = rotational.Inertia(J=0.05, phi=start(0.0, fixed=True), w=start(0.0, fixed=True))
+    gear: rotational.LossyGear = rotational.LossyGear(
+        ratio=-4.0, useSupport=True, useHeatPort=True,
+        lossTable=[[0, 0.9, 0.85, 0.5, 0.6], [50, 0.95, 0.9, 1.0, 1.1], [500, 0.95, 0.9, 1.0, 1.1]],
+    )  # fmt: skip
+    load: rotational.Inertia = rotational.Inertia(J=1.0)
+    brake: rotational.Brake = rotational.Brake(
+        useSupport=True, useHeatPort=True, fn_max=100.0, peak=1.1, mu_pos=[[0, 0.2], [5, 0.15], [500, 0.15]]
+    )
+    press: blocks.Pulse = blocks.Pulse(period=1.7, width=40.0, startTime=0.9)
+    house: rotational.Inertia = rotational.Inertia(J=0.5, phi=start(0.0, fixed=True), w=start(0.0, fixed=True))
+    mount: rotational.SpringDamper = rotational.SpringDamper(c=500.0, d=5.0, useHeatPort=True)
+    wall: rotational.Fixed = rotational.Fixed()
+    oil: thermal.HeatCapacitor = thermal.HeatCapacitor(C=1000.0, T=start(300.0, fixed=True))
+    work: Variable = Variable(unit="J", start=0.0, fixed=True)
+
+    def equations(self) -> Equations:
+        yield connect(self.sine.y, self.motor.tau)
+        yield connect(self.press.y, self.brake.f_normalized)
+        yield connect(self.motor.flange, self.rotor.flange_a)
+        yield connect(self.rotor.flange_b, self.gear.flange_a)
+        yield connect(self.gear.flange_b, self.load.flange_a)
+        yield connect(self.load.flange_b, self.brake.flange_a)
+        yield connect(self.motor.support, self.house.flange_a, self.gear.support, self.brake.support)
+        yield connect(self.house.flange_b, self.mount.flange_b)
+        yield connect(self.mount.flange_a, self.wall.flange)
+        yield connect(self.gear.heatPort, self.brake.heatPort, self.mount.heatPort, self.oil.port)
+        yield der(self.work) == self.motor.tau * (self.rotor.w - self.house.w)
+
+
+@pytest.mark.parametrize("engine", BOTH)
+def test_a_gear_and_a_brake_in_an_elastic_housing_keep_the_energy(engine: Any) -> None:
+    solution = ac.compile(Housing()).simulate(6.0, engine=engine, rtol=1e-8, saveat=601)
+    rotor, load, house, phi = (np.asarray(solution[n]) for n in ("rotor.w", "load.w", "house.w", "house.phi"))
+    kept = 0.025 * rotor**2 + 0.5 * load**2 + 0.25 * house**2 + 250.0 * phi**2 + 1000.0 * (solution["oil.T"] - 300.0)
+    work = np.asarray(solution["work"])
+    assert {-1.0, 0.0, 1.0} <= set(np.asarray(solution["gear.mode"]).tolist())  # it turns both ways, and stands
+    np.testing.assert_allclose(kept, work, atol=1e-5 * work.max())

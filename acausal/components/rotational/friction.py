@@ -8,7 +8,7 @@ import acausal as ac
 from acausal import Discrete, Equations, Input, Parameter, Variable, der, pre, where
 
 from .. import blocks, thermal
-from ..friction import StickSlip, table_columns, yielding
+from ..friction import StickSlip, not_continued_below_zero, table_columns, yielding
 from .interfaces import PartialCompliantWithRelativeStates, PartialTwoFlangesAndSupport
 
 
@@ -74,8 +74,9 @@ class BearingFriction(thermal.PartialConditionalHeatPort, PartialFriction, Parti
         yield self.a_relfric == self.a
         yield self.flange_a.tau + self.flange_b.tau - self.tau == 0
         yield self.speed == self.direction() * self.w
-        sliding = self.direction() * self.unitTorque * blocks.interpolate(self.speed, speeds, torques)
-        yield self.tau == self.friction(sliding)
+        torque = blocks.interpolate(self.speed, speeds, torques)
+        yield self.tau == self.friction(self.direction() * self.unitTorque * torque)
+        yield from not_continued_below_zero("tau_pos", torques, torque)
         yield self.lossPower == self.tau * self.w_relfric
 
 
@@ -103,8 +104,10 @@ class PartialNormalForce(PartialFriction, partial=True):
         yield self.tau0 == blocks.interpolate(0.0 * self.speed, speeds, coefficients) * self.cgeo * self.fn
         yield self.tau0_max == self.peak * self.tau0
         yield self.speed == self.direction() * self.w_relfric
-        yield self.mu == self.direction() * blocks.interpolate(self.speed, speeds, coefficients)
+        coefficient = blocks.interpolate(self.speed, speeds, coefficients)
+        yield self.mu == self.direction() * coefficient
         yield self.tau == self.friction(self.mu * self.cgeo * self.fn)
+        yield from not_continued_below_zero("mu_pos", coefficients, coefficient, self.fn <= 0)
 
 
 class Brake(thermal.PartialConditionalHeatPort, PartialNormalForce, PartialTwoFlangesAndSupport):
@@ -219,6 +222,7 @@ class OneWayClutch(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
         yield self.locked == where(held & ~(self.startForward > 0.5), 1.0, 0.0)
         locked = self.locked > 0.5
         yield self.mu == blocks.interpolate(self.speed, speeds, coefficients)
+        yield from not_continued_below_zero("mu_pos", coefficients, self.mu, free)
         most = high + rest * self.fn_max / self.unitTorque
         # Sliding, sa is shifted by what was held, not by tau0 as in the standard library: so a clutch that lets go
         # stays free, whatever inertia it moves. Shifted by less, sa may fall below tau0_max at once.

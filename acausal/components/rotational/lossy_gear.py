@@ -11,6 +11,9 @@ from .. import blocks, thermal
 from ..friction import BACKWARD, FORWARD, FREE, STUCK, UNKNOWN, corners, table_columns, yielding
 from .interfaces import PartialTwoFlangesAndSupport
 
+ROUNDED = 1e-9
+"""What rounding may add to an efficiency of the table, or take from a torque."""
+
 
 class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport):
     """Gear without inertia, ``phi_a = ratio phi_b``, with mesh efficiency and bearing friction.
@@ -55,10 +58,16 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
         """Whether nothing is lost at any speed."""
         return all(tuple(row[1:]) == (1.0, 1.0, 0.0, 0.0) for row in self.lossTable)
 
+    @property
+    def columns(self) -> list[list[float]]:
+        """The speeds of the table, its two efficiencies, and its two torques of the bearings."""
+        return table_columns(
+            self, "lossTable", self.lossTable, "eta_mf1", "eta_mf2", "tau_bf1", "tau_bf2", largest=(1.0, 1.0)
+        )
+
     def losses(self, speed: Expr) -> tuple[Expr, Expr]:
         """Torques lost while rolling forward and backward, at this speed."""
-        names = "eta_mf1", "eta_mf2", "tau_bf1", "tau_bf2"
-        at, *columns = table_columns(self, "lossTable", self.lossTable, *names, largest=(1.0, 1.0))
+        at, *columns = self.columns
         eta1, eta2, bearing1, bearing2 = (blocks.interpolate(speed, at, column) for column in columns)
         forth, back, unit = (1 - eta1) * self.tau_a, (1 - 1 / eta2) * self.tau_a, self.unitTorque
         lost = 1 / eta2 - eta1  # zero where the teeth lose nothing; who drives makes no difference then
@@ -79,6 +88,22 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
         yield self.speed == ac.noevent(ac.abs(self.w_a))
         yield self.lossPower == self.tauLoss * self.w_a
         yield from self._free() if self.ideal else self._rolling()
+        yield from self._continued()
+
+    def _continued(self) -> Equations:
+        """The assertions that the table is not continued to where the gear would drive.
+
+        They hold until an event: the equations behind it may have no solution.
+        """
+        at, *columns = self.columns
+        for name, column in zip(("eta_mf1", "eta_mf2", "tau_bf1", "tau_bf2"), columns, strict=True):
+            efficiency, value = name.startswith("eta"), blocks.interpolate(self.speed, at, column)
+            text = f"beyond its last row `lossTable` is continued to {name} {{}}: end it with a row at a higher speed"
+            if efficiency and len(at) > 1 and column[-1] > column[-2]:
+                yield ac.assert_(value <= 1.0 + ROUNDED, text.format("above 1"))
+            elif len(at) > 1 and column[-1] < column[-2]:
+                least = ROUNDED if efficiency else -ROUNDED
+                yield ac.assert_(value >= least, text.format("below 0"))
 
     def _free(self) -> Equations:
         """Nothing is lost, and nothing holds the gear."""

@@ -8,7 +8,7 @@ import acausal as ac
 from acausal import Discrete, Equations, Expr, Input, Parameter, Variable, der, reinit, when, where
 
 from .. import blocks, thermal
-from ..friction import StickSlip, table_columns
+from ..friction import StickSlip, not_continued_below_zero, table_columns
 from .interfaces import PartialRigid, PartialTwoFlangesAndSupport
 
 
@@ -74,8 +74,9 @@ class SupportFriction(thermal.PartialConditionalHeatPort, PartialFriction, Parti
         yield self.a_relfric == self.a
         yield self.flange_a.f + self.flange_b.f - self.f == 0
         yield self.speed == self.direction() * self.v
-        sliding = self.direction() * self.unitForce * blocks.interpolate(self.speed, speeds, forces)
-        yield self.f == self.friction(sliding)
+        force = blocks.interpolate(self.speed, speeds, forces)
+        yield self.f == self.friction(self.direction() * self.unitForce * force)
+        yield from not_continued_below_zero("f_pos", forces, force)
         yield self.lossPower == self.f * self.v_relfric
 
 
@@ -103,8 +104,10 @@ class PartialNormalForce(PartialFriction, partial=True):
         yield self.f0 == blocks.interpolate(0.0 * self.speed, speeds, coefficients) * self.cgeo * self.fn
         yield self.f0_max == self.peak * self.f0
         yield self.speed == self.direction() * self.v_relfric
-        yield self.mu == self.direction() * blocks.interpolate(self.speed, speeds, coefficients)
+        coefficient = blocks.interpolate(self.speed, speeds, coefficients)
+        yield self.mu == self.direction() * coefficient
         yield self.f == self.friction(self.mu * self.cgeo * self.fn)
+        yield from not_continued_below_zero("mu_pos", coefficients, coefficient, self.fn <= 0)
 
 
 class Brake(thermal.PartialConditionalHeatPort, PartialNormalForce, PartialTwoFlangesAndSupport):
