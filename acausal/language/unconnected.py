@@ -23,11 +23,18 @@ SHOWN = 5
 
 @dataclass(frozen=True, slots=True)
 class Needed:
-    """A connector of all instances of a component, known by their first variables."""
+    """A connector, or an array of them, of all instances of a component.
+
+    Attributes:
+        cls: the component's class.
+        path: pattern of the connectors' paths.
+        sized: name of the structural parameter that says how many there are, if there is one.
+        bases: their first variables.
+    """
 
     cls: type[Component]
     path: Path
-    name: str
+    sized: str
     bases: Ints
 
 
@@ -41,8 +48,15 @@ class LooseEnds:
         """All instances of a component, but for the model itself: what it is connected to is not there."""
         for name in template.cls._must_connect if path else ():
             slot = template.children.get(name)
-            if slot is not None and slot.templates:
-                self.needed.append(Needed(template.cls, path, name, var_base + slot.var_offsets[0]))
+            if slot is None or not slot.templates:
+                continue
+            count = getattr(template.cls._children[name].default, "_count", "")
+            for suffix, connector, first, _, repetitions in slot.parts():
+                elements = first + connector.var_count * np.arange(repetitions)
+                bases = (var_base[:, None] + elements).ravel()
+                self.needed.append(
+                    Needed(template.cls, (*path, *suffix), count if isinstance(count, str) else "", bases)
+                )
 
     def check(self, graph: ConnectionGraph, root: Template) -> None:
         """Check that something is connected to all of them.
@@ -62,23 +76,23 @@ class LooseEnds:
 
 
 def _text(found: list[tuple[str, Needed]], others: list[str], root: Template) -> str:
-    ends = ", ".join(f"`{component}.{item.name}`" for component, item in found)
-    lines = [f"nothing is connected to {ends}"]
+    lines = [f"nothing is connected to {', '.join(f'`{connector}`' for connector, _ in found)}"]
     for cls in dict.fromkeys(item.cls for _, item in found):
         names = " and ".join(f"`{name}`" for name in cls._must_connect)
         lines.append(f"    a `{cls.__name__}` acts on what is connected to {names}")
-    fields = dict.fromkeys(users_field(root, component) for component, _ in found)
+    fields = dict.fromkeys(users_field(root, connector.rpartition(".")[0]) for connector, _ in found)
     written = [f"    {text}" for text in fields if text]
     lines += ["Written in:", *written] if written else []
-    component, item = found[0]
+    connector, item = found[0]
+    fewer = f", or fewer of them: `{item.sized}` says how many there are" if item.sized else ""
     also = f"; nothing is connected to {', '.join(f'`{name}`' for name in others)} either" if others else ""
-    lines.append(f"Try: connect(self.{component}.{item.name}, ...) in `equations`{also}")
+    lines.append(f"Try: connect(self.{connector}, ...) in `equations`{fewer}{also}")
     return "\n".join(lines)
 
 
 def _others(graph: ConnectionGraph, joined: Ints, found: list[tuple[str, Needed]]) -> list[str]:
     """Loose connectors that the first one fits, of other components."""
-    known = {f"{component}.{item.name}" for component, item in found}
+    known = {connector for connector, _ in found}
     first = int(found[0][1].bases[0])
     for instances in graph.connectors.values():
         if not any(first in bases for bases, _ in instances):

@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import acausal as ac
+from acausal import Array, Component, ConnectError, Equations, connect
 from acausal.components import bondgraph, electrical, hydraulic, rotational
 from acausal.components.examples import assemble
 from models.kbc import reference_crane
@@ -118,3 +119,34 @@ def test_motor_of_a_gyrator_between_circuit_and_shaft() -> None:
     assert_allclose(solution["rotor.w"], 24.0 / 6.0 * (1 - np.exp(-(6.0**2) / (2.0 * 0.5) * t)), atol=1e-7)
     given = np.asarray(solution["armature.p.i"] * solution["armature.p.v"])
     assert_allclose(given, -solution["shaft.flange.tau"] * solution["rotor.w"], atol=1e-7)
+
+
+class Ladder(Component):
+    """Rungs of a resistor each, one of whose junctions keeps an end that nothing is connected to."""
+
+    source: bondgraph.Se = bondgraph.Se(e=6.0)
+    rungs: Array[bondgraph.J1] = Array(bondgraph.J1(), 2)
+    loads: Array[bondgraph.R] = Array(bondgraph.R(), 2)
+
+    def equations(self) -> Equations:
+        yield connect(self.source.port, self.rungs[0].inp[0])
+        yield connect(self.rungs[0].out[0], self.rungs[1].inp[0])
+        yield connect(self.rungs[0].out[1], self.loads[0].port)
+        yield connect(self.rungs[1].out[0], self.loads[1].port)
+
+
+def test_an_end_of_a_junction_with_nothing_on_it_is_an_error() -> None:
+    """It would carry no flow, and so stop that of the whole 1-junction."""
+    with pytest.raises(ConnectError, match=r"nothing is connected to `rungs\[1\].out\[1\]`") as caught:
+        ac.compile(Ladder())
+    assert "or fewer of them: `n_out` says how many there are" in str(caught.value)
+    assert "rungs: Array[bondgraph.J1]" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "part", [bondgraph.C(), bondgraph.Bond(), bondgraph.TF(), bondgraph.MSe(), bondgraph.ElectricalBond()]
+)
+def test_an_element_without_a_bond_is_an_error(part: Component) -> None:
+    model = assemble("source.port - load.port", source=bondgraph.Se(), load=bondgraph.R(), part=part)
+    with pytest.raises(ConnectError, match=r"nothing is connected to `part[.](port|port_a|bond)`"):
+        ac.compile(model)

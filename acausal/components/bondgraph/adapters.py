@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import Component, Equations, der
 
 from .. import electrical, hydraulic, rotational, translational
@@ -19,6 +21,7 @@ class HydraulicBond(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), Table 2.1.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("bond",)
     port: hydraulic.HydraulicPort = hydraulic.HydraulicPort()
     bond: BondPort = BondPort()
 
@@ -40,6 +43,7 @@ class ElectricalBond(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), Table 2.1.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("bond",)
     p: electrical.Pin = electrical.Pin()
     n: electrical.Pin = electrical.Pin()
     bond: BondPort = BondPort()
@@ -66,6 +70,7 @@ class TranslationalBond(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), Table 2.1.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("bond",)
     inward: bool = False
     flange: translational.Flange = translational.Flange()
     bond: BondPort = BondPort()
@@ -93,6 +98,7 @@ class RotationalBond(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), Table 2.1.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("bond",)
     inward: bool = False
     flange: rotational.Flange = rotational.Flange()
     bond: BondPort = BondPort()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from acausal import Array, Component, Connector, Equations, Flow, Input, Parameter, Potential, Variable, der
 
 
@@ -29,6 +31,7 @@ class Bond(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 2.2.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("port_a", "port_b")
     port_a: BondPort = BondPort()
     port_b: BondPort = BondPort()
     e: Variable = Variable(doc="effort")
@@ -50,6 +53,7 @@ class PartialJunction(Component, partial=True):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 3.3.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("inp", "out")
     n_in: int = 1
     n_out: int = 2
     inp: Array[BondPort] = Array(BondPort(), "n_in")
@@ -106,6 +110,7 @@ class OnePort(Component, partial=True):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 3.1.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("port",)
     port: BondPort = BondPort()
     e: Variable = Variable(doc="effort")
     f: Variable = Variable(doc="flow into the element")
@@ -232,6 +237,7 @@ class Se(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 3.1.4.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("port",)
     port: BondPort = BondPort()
     e: Parameter = Parameter(1.0, doc="effort")
     f: Variable = Variable(doc="flow out of the source")
@@ -251,6 +257,7 @@ class Sf(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 3.1.4.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("port",)
     port: BondPort = BondPort()
     f: Parameter = Parameter(1.0, doc="flow out of the source")
     e: Variable = Variable(doc="effort")
@@ -272,6 +279,7 @@ class MSe(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 3.1.4, with a modulating signal.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("port",)
     port: BondPort = BondPort()
     e: Input = Input(doc="effort")
     f: Variable = Variable(doc="flow out of the source")
@@ -293,6 +301,7 @@ class MSf(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 3.1.4, with a modulating signal.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("port",)
     port: BondPort = BondPort()
     f: Input = Input(doc="flow out of the source")
     e: Variable = Variable(doc="effort")
@@ -309,6 +318,7 @@ class TwoPort(Component, partial=True):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 3.2.
     """
 
+    _must_connect: ClassVar[tuple[str, ...]] = ("port_a", "port_b")
     port_a: BondPort = BondPort()
     port_b: BondPort = BondPort()
     e1: Variable = Variable(doc="effort at port a")
