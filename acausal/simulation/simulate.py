@@ -319,7 +319,8 @@ def _solve(
     t, y = solved.ts[0], solved.ys[0]
     t_last, y_last = solved.ts[1][0], solved.ys[1][0]
     if together:
-        x, w = y[:, :n_x], y[:, n_x:]
+        reverse = not isinstance(settings.adjoint, diffrax.ForwardMode)
+        x, w = y[:, :n_x], _solved(lowered, t, y[:, :n_x], y[:, n_x:], (t0, x0, w0), p, reverse)
         last = (t_last, y_last[:n_x], y_last[n_x:])
     else:
         x, w = y, _follow(lowered, t, y, w0, p) if n_w else jnp.zeros((y.shape[0], 0), y.dtype)
@@ -421,6 +422,35 @@ def _follow(lowered: Lowered, t: Array, x: Array, w0: Array, p: Array) -> Array:
         return jnp.where(good, found, w), found
 
     return jax.lax.scan(step, w0, (t, x))[1]
+
+
+def _solved(
+    lowered: Lowered, t: Array, x: Array, w: Array, start: tuple[Array, Array, Array], p: Any, reverse: bool
+) -> Array:
+    """Tearing variables that solve their equations at the output points, from interpolated ones, shape (n_t, n_w).
+
+    The dense output does not know of kinks, jumps and pulses that no state feels. Where there is no solution nearby it
+    stays. Reverse mode multiplies what failed by zero, which must be finite: it is solved at the start there.
+    """
+    if not lowered.n_w or not t.shape[0]:
+        return w
+
+    def solve(t: Array, x: Array, w: Array) -> Array:
+        return jax.lax.map(lambda at: lowered.solve_algebraic(at[0], at[1], at[2], p), (t, x, w))
+
+    if not reverse:
+        found = solve(t, x, w)
+        return jnp.where(jnp.isfinite(found).all(axis=1)[:, None], found, w)
+
+    def again(carry: tuple[Array, Array], first: Array) -> tuple[tuple[Array, Array], None]:
+        good = carry[0]
+        held = [jnp.where(first, jax.lax.stop_gradient(a), a) for a in (t, x, w)]
+        chosen = [jnp.where(good.reshape(-1, *[1] * (a.ndim - 1)), a, at) for a, at in zip(held, start, strict=True)]
+        found = solve(*chosen)
+        return (good & jnp.isfinite(found).all(axis=1), found), None
+
+    (good, found), _ = jax.lax.scan(again, (jnp.isfinite(t), w), jnp.asarray([True, False]))
+    return jnp.where(good[:, None], found, w)
 
 
 def _keeps_factors(solver: Any) -> bool:

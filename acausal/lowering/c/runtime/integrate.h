@@ -1,22 +1,47 @@
 /* A stretch of a run with Rodas5P: steps, output, tangents, events. */
 
-#if AC_NX == 0 && AC_N > 0
-/* Without states nothing has to be integrated: what is saved solves the equations of its time, from the interpolated
-   values, which stay where Newton's method does not converge. */
+#if AC_N > AC_NX
+/* Newton's method for the algebraic unknowns in z with the factors at hand, those of the step or of the output before;
+   dz is overwritten. 0 where it gains a digit at each turn and ends far within the tolerance: the equations are those that
+   the factors are of, and the Jacobian need not be made anew. */
+static AC_UNUSED int ac_refined(const ac_problem *q, ac_work *w, double t, double *z, double *dz) {
+    double before = 0.0;
+    for (int turn = 0; turn < 3; turn++) {
+        double size = 0.0;
+        ac_value(w, t, z, dz);
+        for (int i = 0; i < AC_NX; i++) dz[i] = 0.0;
+        ac_back(w, dz);
+        for (int i = AC_NX; i < AC_N; i++) {
+            size = ac_worse(size, fabs(dz[i]) / (q->atol[i] + q->rtol * fabs(z[i])));
+            z[i] += dz[i];
+        }
+        if (size == 0.0 || (turn > 0 && size <= 0.1 * ac_min(before, 1.0))) return 0;
+        if (turn > 0 && !(size <= 0.1 * before)) return 1;
+        before = size;
+    }
+    return 1;
+}
+
+/* What is saved inside of a step solves the equations of its time, from the interpolated values: the dense output does not
+   know of kinks, jumps and pulses that no state feels. It stays where Newton's method does not converge. */
 static void ac_save_solved(const ac_problem *q, long n, ac_work *w, void *tangents) {
     double z[AC_N], v[3][AC_N];
     memcpy(z, q->z_out + n * AC_N, sizeof z);
-    memcpy(v, w->v, sizeof v);
-    const int failed = ac_slope(w, q->save[n], z, w->f);
-    memcpy(w->v, v, sizeof v);
-    if (failed) return;
+    if (AC_NX == 0 || ac_refined(q, w, q->save[n], z, w->y)) { /* without states to rounding: nothing else is solved */
+        memcpy(z, q->z_out + n * AC_N, sizeof z);
+        memcpy(v, w->v, sizeof v);
+        const int failed = ac_slope(w, q->save[n], z, w->y);
+        memcpy(w->v, v, sizeof v);
+        if (failed) return;
+    }
     memcpy(q->z_out + n * AC_N, z, sizeof z);
 #ifdef AC_TANGENTS
     if (!tangents) return;
     ac_vector *dz = (ac_vector *)q->dz_out + n * AC_N, move[AC_N];
     ac_field_tangent(&w->m, q->save[n], z, dz, move);
+    for (int i = 0; i < AC_NX; i++) move[i] = ac_zero;
     ac_back_vector(w, move);
-    for (int i = 0; i < AC_N; i++) dz[i] += move[i];
+    for (int i = AC_NX; i < AC_N; i++) dz[i] += move[i];
 #else
     (void)tangents;
 #endif
@@ -31,7 +56,7 @@ static void ac_save(const ac_problem *q, long n, double s, ac_work *w, void *tan
 #else
     (void)tangents;
 #endif
-#if AC_NX == 0 && AC_N > 0
+#if AC_N > AC_NX
     ac_save_solved(q, n, w, tangents);
 #endif
 }
