@@ -14,6 +14,7 @@ from ..language.flat_model import Bools, Family, FlatModel
 from ..language.places import PACKAGE, users_field
 from ..language.template import Floats, Ints
 from ..passes.impulses import jumping, terms_and_slopes
+from ..passes.reinits import states_by_choice
 from ..passes.schedule import Group, Schedule
 from ..passes.specialize import specialize
 from ..symbolic.expr import ONE, Expr, add, neg
@@ -132,6 +133,8 @@ class Hybrid:
         first: number of the first slot among the parameters.
         jumps: differentiated equations that may jump: terms and slopes of their residuals, and their row numbers.
         closures: groups of the schedule that something needs, by what that is; filled when they are first asked for.
+        kept, followers: states that keep their values at a `reinit` by choice, and what may jump for it
+            (`states_by_choice`).
     """
 
     flat: FlatModel
@@ -149,6 +152,8 @@ class Hybrid:
     jumps: list[Jump]
     texts: dict[int, str] = field(default_factory=dict[int, str])
     closures: dict[str, list[Group]] = field(default_factory=dict[str, list[Group]])
+    kept: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
+    followers: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
 
     @property
     def eventful(self) -> bool:
@@ -303,6 +308,8 @@ def make_hybrid(flat: FlatModel, representative: Ints, sign: Ints, schedule: Sch
         hybrid.jumps.append(Jump(Piece(forms, family, rows), count))
     for family in specialize(flat.actions, representative, sign):
         _action(hybrid, family)
+    if hybrid.reinits:
+        hybrid.kept, hybrid.followers = states_by_choice(flat, schedule, representative)
     return hybrid
 
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from acausal.errors import SimulationError
+from acausal.language.template import Ints
 from acausal.lowering.hybrid import Hybrid, Piece, Point
 from acausal.lowering.initial import InitialProblem
 from acausal.lowering.levels import levels
@@ -81,6 +82,7 @@ class EventIteration(ModeSearch):
         self.warn = warn
         self.warned: set[tuple[int, int]] = set()
         self.jumped: set[int] = set()
+        self.followed: set[int] = set()
         self.due: list[tuple[float, float, int]] = []
         self.moves: list[Move] = []
         self.noise: Floats = np.zeros(hybrid.roots.count)
@@ -279,7 +281,35 @@ class EventIteration(ModeSearch):
             move.free = self._may_follow(ids)
             z = self._moved(t, z, p, ids, values, move.free)
         move.z_after = z
+        self._tell_followers(t, z, p, point, ids, values)
         return z
+
+    def _tell_followers(self, t: float, z: Floats, p: Floats, before: Point, ids: Ints, values: Floats) -> None:
+        """Warn of what jumps with `reinit` although it could keep its value, as velocities with relative ones do.
+
+        A variable whose derivative an equation holds stays as it is at an impulse on another part. Where the states are
+        relative coordinates instead, these keep their values, and it jumps.
+        """
+        kept, followers = self.hybrid.kept, self.hybrid.followers
+        if not len(kept) or not len(followers):
+            return
+        low, name = self.problem.lowered, self.hybrid.flat.name
+        after = self.equations.values(t, self._settled(t, z, p), p)
+        size = np.maximum(np.maximum(np.abs(before.v), np.abs(after)), low.nominal[: len(after)])
+        moved = followers[np.abs(after - before.v)[followers] > JUMPS * size[followers]]
+        for v in np.setdiff1d(moved, [*ids, *self.followed]).tolist():
+            try:
+                self._moved(t, z, p, np.append(ids, v), np.append(values, before.v[v]), self._may_follow(ids))
+            except SimulationError:  # it has to follow
+                continue
+            self.followed.add(v)
+            new, still = (", ".join(f"`{name(int(k))}`" for k in some[:4]) for some in (ids, kept))
+            keep = "the states {} keep their values" if len(kept) > 1 else "the state {} keeps its value"
+            self.warn(
+                f"At t = {t:.9g} s `reinit` of {new} changes `{name(v)}`, too, from {before.v[v]:.6g} to {after[v]:.6g}"
+                f", as {keep.format(still)}.\nTry: `reinit({name(v)}, pre({name(v)}))` beside it if `{name(v)}` is to "
+                "keep its value, or make it a state (stateSelect='default' of the spring or damper)."
+            )
 
     def _may_follow(self, ids: Any) -> Any:
         """States that may jump with these variables: velocities with velocities, while positions stay."""
