@@ -163,9 +163,8 @@ class Hybrid:
     @property
     def only_modes(self) -> bool:
         """Whether nothing can happen at an event but that conditions on what moves switch their modes."""
-        others = (
-            self.floors, self.pres, self.triggers, self.samples, self.reinits, self.asserts, self.ends, self.jumps
-        )
+        asserts = [item for item in self.asserts if item.switches]
+        others = self.floors, self.pres, self.triggers, self.samples, self.reinits, asserts, self.ends, self.jumps
         return self.roots.count > 0 and not any(others) and not any(self.following)
 
     @property

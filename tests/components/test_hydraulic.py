@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -9,8 +11,9 @@ from scipy.integrate import cumulative_simpson
 from scipy.optimize import brentq
 
 import acausal as ac
-from acausal import Array, Component, Equations, connect, inner, start
-from acausal.components import blocks, hydraulic, rotational
+from acausal import Array, Component, Equations, SimulationError, connect, inner, start
+from acausal.compiler import located_twin
+from acausal.components import blocks, hydraulic, rotational, translational
 from acausal.components.examples import assemble
 
 OIL = hydraulic.Oil()
@@ -168,3 +171,39 @@ def test_shuttle_and_reducing_valve_hand_over() -> None:
     higher = np.maximum(1e6 + 8e6 * t, 3e6)
     assert_allclose(solution["shuttle.port_c.p"], higher, rtol=5e-3)
     assert_allclose(solution["reducer.port_b.p"], np.minimum(higher, 5.1e6), rtol=5e-3)
+
+
+class Pulled(Component):
+    """A load pulls the piston away from a port that is closed."""
+
+    oil: hydraulic.Oil = inner(hydraulic.Oil())
+    tank: hydraulic.Tank = hydraulic.Tank()
+    cylinder: hydraulic.ExtendedCylinder = hydraulic.ExtendedCylinder(bore=0.1, rod=0.05, x=start(0.1, fixed=True))
+    load: translational.ConstantForce = translational.ConstantForce(f_constant=5e5)
+
+    def equations(self) -> Equations:
+        yield connect(self.cylinder.port_b, self.tank.port)
+        yield connect(self.cylinder.flange, self.load.flange)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_oil_that_is_pulled_below_a_vacuum_is_told_of(engine: Any) -> None:
+    system = ac.compile(Pulled())
+    with pytest.warns(UserWarning, match=r"assertion of cylinder.chamber_a .* below a vacuum") as caught:
+        system.simulate(1.0, engine=engine)
+    assert len(caught) == 1
+    assert "cylinder: hydraulic.ExtendedCylinder" in str(caught[0].message)  # the user's line
+    system.simulate(1.0, parameters={"load.f_constant": 100.0}, engine=engine)
+
+
+def test_a_piston_beyond_the_end_of_its_chamber_is_an_error() -> None:
+    system = ac.compile(Pulled())
+    with pytest.raises(SimulationError, match=r"assertion of cylinder.chamber_b .* piston is beyond the end"):
+        system.simulate(1.0, initial={"cylinder.x": 5.0})
+
+
+def test_assertions_at_the_points_of_the_result_leave_events_to_the_compiled_run() -> None:
+    """So the bumpers of a cylinder cost nothing more for them."""
+    hybrid = located_twin(ac.compile(Pulled())).hybrid
+    assert hybrid is not None
+    assert hybrid.only_modes

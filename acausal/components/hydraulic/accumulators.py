@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from acausal import Component, Equations, Parameter, Variable, der, outer, where
 
-from .interfaces import HydraulicPort, Oil
+from .interfaces import HydraulicPort, Oil, not_torn
 
 
 class Accumulator(Component):
@@ -38,3 +38,4 @@ class Accumulator(Component):
         yield self.V_gas == self.V0 * where(floating, (self.p_pre / self.p) ** (1 / self.n), 1.0)
         compliance = where(floating, self.V_gas / (self.n * self.p), 0.0) + self.V_dead / self.oil.B
         yield compliance * der(self.p) == self.port.q
+        yield from not_torn(self.p)

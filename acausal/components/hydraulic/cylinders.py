@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from acausal import PI, Component, Equations, Parameter, Variable, connect, der, outer, start
+from acausal import PI, Component, Equations, Parameter, Variable, assert_, connect, der, noevent, outer, start
 
 from .. import translational
-from .interfaces import HydraulicPort, Oil
+from .interfaces import HydraulicPort, Oil, not_torn
 
 
 class Chamber(Component):
@@ -46,6 +46,10 @@ class Chamber(Component):
             yield self.V == self.V0 + self.A * (self.stroke - s)
             yield der(self.p) == self.oil.B / self.V * (self.port.q + self.A * velocity)
             yield self.flange.f == self.p * self.A
+        yield from not_torn(self.p)
+        yield assert_(
+            noevent(self.V > 0.0), "the piston is beyond the end of the chamber, whose volume is not positive"
+        )
 
 
 class PartialCylinder(Component, partial=True):

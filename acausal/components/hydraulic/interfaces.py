@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from acausal import Component, Connector, Equations, Flow, Parameter, Potential, Variable
+from acausal import Component, Connector, Equations, Expr, Flow, Parameter, Potential, Variable, assert_, noevent
+
+VACUUM = -1e5
+"""No pressure is lower [Pa], whether it is absolute or counted from that of the air."""
 
 
 class HydraulicPort(Connector):
@@ -27,9 +30,18 @@ class Oil(Component):
     Source: bulk modulus as in Eq. 6; values of an ISO VG 46 oil at 40 degC.
     """
 
-    rho: Parameter = Parameter(850.0, unit="kg/m3", min=0.0, doc="density")
-    nu: Parameter = Parameter(46e-6, unit="m2/s", min=0.0, doc="kinematic viscosity")
-    B: Parameter = Parameter(1.2e9, unit="Pa", min=0.0, doc="bulk modulus")
+    rho: Parameter = Parameter(850.0, unit="kg/m3", min=1e-30, doc="density")
+    nu: Parameter = Parameter(46e-6, unit="m2/s", min=1e-30, doc="kinematic viscosity")
+    B: Parameter = Parameter(1.2e9, unit="Pa", min=1e-30, doc="bulk modulus")
+
+
+def not_torn(p: Expr) -> Equations:
+    """The warning that the pressure `p` is below that of a vacuum: oil boils before, and these components do not."""
+    text = (
+        "the pressure of the oil is below a vacuum, as there is no cavitation: let oil flow in before, through a "
+        "CheckValve from the tank, or take the load off"
+    )
+    yield assert_(noevent(p >= VACUUM), text, level="warning")
 
 
 class PartialTwoPort(Component, partial=True):

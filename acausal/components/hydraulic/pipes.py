@@ -6,7 +6,7 @@ from acausal import PI, Component, Equations, Expr, Input, Output, Parameter, Va
 from acausal import abs as magnitude
 from acausal import max as maximum
 
-from .interfaces import HydraulicPort, Oil
+from .interfaces import HydraulicPort, Oil, not_torn
 
 
 class ControlVolume(Component):
@@ -30,6 +30,7 @@ class ControlVolume(Component):
         yield from super().equations()
         yield self.p == self.port.p
         yield der(self.p) == self.oil.B / self.V * self.port.q
+        yield from not_torn(self.p)
 
 
 class PartialFriction(Component, partial=True):
@@ -154,3 +155,5 @@ class Pipe(Component):
         yield der(self.p_a) == stiffness * (self.port_a.q - self.q)
         yield der(self.p_b) == stiffness * (self.port_b.q + self.q)
         yield der(self.q) == area / (self.oil.rho * self.l) * (self.p_a - self.p_b - self.friction.dp)
+        yield from not_torn(self.p_a)
+        yield from not_torn(self.p_b)
