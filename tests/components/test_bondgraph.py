@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -26,7 +28,9 @@ def test_the_crane_with_a_cylinder_of_bonds_is_the_crane(hydraulics: str, joint:
     components = reference_crane(hydraulics, joint, scenario="endstop", **changes)
     bonds = ac.redeclare(components, {"cylinder": cylinder})
     t = np.linspace(0.0, end, 61)
-    one, two = (ac.compile(model).simulate(t1=end, saveat=t, rtol=1e-9) for model in (components, bonds))
+    torn = pytest.warns(UserWarning, match="below a vacuum")  # at the end stop, in the lines of both
+    with torn if hydraulics == "extended" else nullcontext():
+        one, two = (ac.compile(model).simulate(t1=end, saveat=t, rtol=1e-9) for model in (components, bonds))
     for name in ("x", "cylinder.v", "cylinder.p_a", "cylinder.p_b", "cylinder.flange.f", "cylinder.port_b.q"):
         assert_allclose(two[name], one[name], rtol=2e-6, atol=2e-6 * np.ptp(one[name]), err_msg=name)
 
