@@ -42,8 +42,10 @@ def collect(cls: type[Instance]) -> None:
     for name in annotations:
         known = name in cls.__dict__ or _known(name, declarations, structural, children)
         if not known and not name.startswith("_"):
+            annotation = annotations[name]
+            kind = annotation.__name__ if isinstance(annotation, type) else annotation
             raise DeclarationError(
-                f"field `{cls.__name__}.{name}` has a type but no value: write `{name}: {annotations[name]} = ...` "
+                f"field `{cls.__name__}.{name}` has a type but no value: write `{name}: {kind} = ...` "
                 f"({cls._source[0]}:{cls._source[1]})"
             )
     cls._declarations, cls._structural, cls._children, cls._vectors = declarations, structural, children, vectors
@@ -104,6 +106,11 @@ def _collect_one(
         descriptor = Child(name, value, annotation)
         children[name] = descriptor
         type.__setattr__(cls, name, descriptor)
+    elif isinstance(value, type) and issubclass(value, Instance) and annotation is not None:
+        raise DeclarationError(
+            f"`{cls.__name__}.{name} = {value.__name__}` is a class, a field holds an instance: write "
+            f"`{value.__name__}()` ({cls._source[0]}:{cls._source[1]})"
+        )
     elif isinstance(value, (bool, int, str)) and annotation is not None and "ClassVar" not in str(annotation):
         descriptor = Structural(name, value, type(value))
         structural[name] = descriptor

@@ -526,7 +526,8 @@ def _run(scope: Component, method: str) -> Any:
             continue
         if not isinstance(item, _ITEMS):
             hint = (
-                "one side of `==` must be a variable or expression of the component"
+                "one side of `==` must be a variable or expression of the component; connectors are joined with "
+                "`connect(a, b)`"
                 if isinstance(item, bool)
                 else "yield `lhs == rhs` or `connect(a, b)`; the base class's with `yield from super().equations()`"
             )

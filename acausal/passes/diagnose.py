@@ -26,6 +26,8 @@ SHOWN = 12
 """Equations and unknowns listed per part."""
 PARTS = 3
 """Parts of one kind."""
+WIDEST = 160
+"""Characters shown of an equation; its place says where the rest is."""
 
 
 def singular(reduced: Reduced, rows: Rows, base: Ints, columns: Ints) -> StructureError:
@@ -71,7 +73,8 @@ class _Text:
         self.absent: list[str] = []
 
     def _entry(self, text: str, component: str, place: str) -> None:
-        self.lines.append(f"    {text:<48} {component or '(model)'}  {place}")
+        short = text if len(text) <= WIDEST else f"{text[:WIDEST]} ..."
+        self.lines.append(f"    {short:<48} {component or '(model)'}  {place}")
         self.equations.append(text)
         self.components.append(component)
 
@@ -115,12 +118,14 @@ class _Text:
                 f"`{names[0]}` is assigned by more than one `when`: make them branches of one, "
                 "when(a, ...).elsewhen(b, ...), of which the first that is triggered counts"
             )
-        elif len(components) > 1 and len(components) <= 4 and len(names) == 1:
+        elif 1 < len(components) <= 4 and 1 <= len(names) <= 4:
             who = " and ".join(f"`{c or self.flat.model_name}`" for c in components)
+            both, more = ("both ", "") if len(names) == 1 else ("", " more than once")
             self.tips.append(
-                f"{who} both determine `{names[0]}`, like two ideal voltage sources in parallel, two current sources "
-                "in series, or two outputs that are connected: put a component between them that takes the difference "
-                "(a resistance), or remove one"
+                f"{who} {both}determine {', '.join(f'`{n}`' for n in names)}{more}, like two ideal voltage sources in "
+                "parallel, two speeds given to one shaft, two current sources in series, or two outputs that are "
+                "connected: put a component between them that takes the difference (a resistance, a spring), or remove "
+                "one"
             )
 
     def under(self, row_set: Ints, names: list[str]) -> None:
@@ -149,14 +154,19 @@ class _Text:
     def _advice(self) -> str:
         """What to try: unbalanced classes, unconnected ports and inputs, no ground."""
         tips = [*unbalanced_classes(self.flat.root), *self.tips]
-        loose = _unconnected(self.reduced)
-        if loose:
-            tips.append(f"nothing is connected to {', '.join(f'`{p}`' for p in loose[:6])}: is a connect() missing?")
         inputs = [n for n in self.under_unknowns if _kind(self.flat, n) == Kind.INPUT]
         if inputs:
             names = ", ".join(f"`{i}`" for i in inputs[:6])
             tips.append(f"input {names} has no value: connect it or give it an equation")
+        loose = _unconnected(self.reduced)
+        if loose:
+            tips.append(f"nothing is connected to {', '.join(f'`{p}`' for p in loose[:6])}: is a connect() missing?")
         potentials = [n for n in self.under_unknowns if _kind(self.flat, n) == Kind.POTENTIAL]
+        unsaid = [n for n in potentials if n in self.absent]
+        if unsaid and not loose:
+            names, verb = ", ".join(f"`{n}`" for n in unsaid[:4]), "are" if len(unsaid) > 1 else "is"
+            tips.append(f"{names} {verb} in no equation of what is connected there: connect something that has one")
+        potentials = [n for n in potentials if n not in unsaid]
         given = [n for n in self.absent if n in _reinitialized(self.flat)]
         if given:
             names, verb = ", ".join(f"`{n}`" for n in given[:4]), "are" if len(given) > 1 else "is"

@@ -225,7 +225,8 @@ class EventIteration(ModeSearch):
             raise SimulationError(
                 f"At t = {t:.12g} s the equations are singular with the present states of all switches: nothing "
                 f"determines {names}.\nTwo parts of the model fix the same quantity at once, such as two closed "
-                "switches side by side: give one of them some resistance or elasticity, or remove one."
+                "switches side by side, or two clutches that slide with no inertia between them: give one of them some "
+                "resistance or elasticity, what is between them some inertia, or remove one."
             )
 
     def _note_sizes(self, point: Point) -> None:

@@ -393,3 +393,18 @@ def test_a_gear_and_a_brake_in_an_elastic_housing_keep_the_energy(engine: Any) -
     work = np.asarray(solution["work"])
     assert {-1.0, 0.0, 1.0} <= set(np.asarray(solution["gear.mode"]).tolist())  # it turns both ways, and stands
     np.testing.assert_allclose(kept, work, atol=1e-5 * work.max())
+
+
+@pytest.mark.parametrize(
+    ("part", "text"),
+    [
+        (tr.EndStops(s_min=1.0, s_max=0.5), "the lower bumper is above the upper one, s_min > s_max"),
+        (blocks.DeadZone(uMax=-1.0, uMin=1.0), "the ends of a DeadZone are uMin <= uMax"),
+    ],
+)
+def test_ends_in_the_wrong_order_are_an_error(part: Component, text: str) -> None:
+    link = "mass.flange_b - part.flange" if isinstance(part, tr.EndStops) else "wave.y - part.u"
+    start_at = {"s": start(0.0, fixed=True), "v": start(0.0, fixed=True)}
+    model = assemble(link, part=part, mass=tr.Mass(**start_at), wave=blocks.Sine())
+    with pytest.raises(SimulationError, match=rf"assertion of part .* {text}"):
+        ac.compile(model).simulate(1.0)

@@ -256,3 +256,12 @@ def test_pendulum_in_space_on_a_cart_in_the_plane() -> None:
     assert_allclose(momentum, momentum[0], atol=1e-7)
     assert np.ptp(v[2]) > 0.5 and np.ptp(solution["lift.fz"]) > 1.0
     assert_allclose(solution["bob.frame_a.r_0[3]"], 0.5, atol=1e-12)
+
+
+def test_a_slide_without_direction_is_an_error() -> None:
+    model = assemble(
+        "wall.frame - slide.frame_a", "slide.frame_b - load.frame_a", wall=planar.Fixed(), load=planar.Body(),
+        slide=planar.Prismatic(r=(0.0, 0.0)), planarWorld=inner(planar.PlanarWorld()),
+    )  # fmt: skip
+    with pytest.raises(ac.SimulationError, match=r"assertion of slide .* the direction `r` of sliding has no length"):
+        ac.compile(model).simulate(1.0)

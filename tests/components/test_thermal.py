@@ -81,3 +81,9 @@ def test_motor(engine: Any) -> None:
     np.testing.assert_allclose(solution["Twinding.T"], winding - 273.15, rtol=1e-6)
     np.testing.assert_allclose(solution["Tcore.T"], core - 273.15, rtol=1e-6)
     assert np.max(winding) > 400.0
+
+
+def test_a_temperature_below_absolute_zero_is_an_error() -> None:
+    """Degrees Celsius where kelvin are meant, below the freezing point."""
+    with pytest.raises(ac.DeclarationError, match=r"FixedTemperature.T` = -20.0 lies outside its bounds \[0.0, inf\]"):
+        thermal.FixedTemperature(T=-20.0)

@@ -179,6 +179,13 @@ CASES = {
         """,
         ["`M.R: float = 3.0` is a plain float", "Parameter(3.0)"],
     ),
+    "a class in the place of an instance": (
+        """
+        class M(Component):  # HERE
+            R: Component = Resistor
+        """,
+        ["`M.R = Resistor` is a class, a field holds an instance: write `Resistor()`"],
+    ),
     "a type without a value": (
         """
         class M(Component):  # HERE
@@ -253,7 +260,7 @@ CASES = {
 
         ac.compile(M())
         """,
-        ["`M.equations` yields True", "one side of `==` must be a variable"],
+        ["`M.equations` yields True", "one side of `==` must be a variable", "are joined with `connect(a, b)`"],
     ),
     "if on an expression": (
         """

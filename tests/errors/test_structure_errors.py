@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 import acausal as ac
+from acausal.components import planar, rotational
+from acausal.components.examples import assemble, start
 
 from .user import error_of
 
@@ -287,3 +289,36 @@ def test_a_large_model_is_named_by_its_first_lines(tmp_path: Path) -> None:
         """
     error = error_of(tmp_path, text, ac.StructureError, ["a ground", "r[1999]"])
     assert len(str(error).splitlines()) < 60
+
+
+def test_two_speeds_of_one_shaft_name_their_sources() -> None:
+    """The one overdetermines what the other does, through a relation of the shaft or a gear."""
+    sources = {"a": rotational.ConstantSpeed(w_fixed=1.0), "b": rotational.ConstantSpeed(w_fixed=2.0)}
+    stiff = assemble("a.flange - shaft.flange_a", "shaft.flange_b - b.flange", shaft=rotational.Inertia(), **sources)
+    geared = assemble("a.flange - gear.flange_a", "gear.flange_b - b.flange", gear=rotational.IdealGear(), **sources)
+    for model, who in ((stiff, "`a` and `b` determine"), (geared, "`gear` and `a` and `b` determine")):
+        with pytest.raises(ac.StructureError, match=rf"Try: {who} .* more than once, .* two speeds given to one shaft"):
+            ac.compile(model)
+
+
+def test_of_an_input_without_a_value_the_long_equations_are_cut_short() -> None:
+    model = assemble(
+        "one.flange_b - clutch.flange_a", "clutch.flange_b - two.flange_a", one=rotational.Inertia(),
+        two=rotational.Inertia(), clutch=rotational.Clutch(),
+    )  # fmt: skip
+    with pytest.raises(ac.StructureError) as caught:
+        ac.compile(model)
+    text = str(caught.value)
+    assert "Try: input `clutch.f_normalized` has no value" in text  # first, before the ends of the shafts
+    assert "clutch.startForward = where(" in text
+    assert max(map(len, text.splitlines())) < 400
+
+
+def test_a_potential_that_nothing_determines_is_told_of() -> None:
+    """A planar point mass on a spring has no angle: what is missing is no reference."""
+    model = assemble(
+        "wall.frame - spring.frame_a", "spring.frame_b - mass.frame_a", wall=planar.Fixed(), spring=planar.Spring(),
+        mass=planar.PointMass(r=start((0.0, -1.0))), planarWorld=ac.inner(planar.PlanarWorld()),
+    )  # fmt: skip
+    with pytest.raises(ac.StructureError, match=r"`spring.frame_b.phi` is in no equation of what is connected there"):
+        ac.compile(model)

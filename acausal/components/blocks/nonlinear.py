@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Equations, Input, Output, Parameter, clip, der
+from acausal import Equations, Input, Output, Parameter, assert_, clip, der
 
 from .interfaces import SISO, initialized
 
@@ -76,6 +76,7 @@ class DeadZone(SISO):
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.y == self.u - clip(self.u, self.uMin, self.uMax)
+        yield assert_(self.uMin <= self.uMax, "the ends of a DeadZone are uMin <= uMax")
 
 
 class SlewRateLimiter(SISO):

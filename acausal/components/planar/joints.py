@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Equations, Parameter, Variable, Vector, conditional, der, dot, norm, vector
+from acausal import Equations, Parameter, Variable, Vector, assert_, conditional, der, dot, norm, vector
 
 from .. import rotational, translational
 from .interfaces import PartialTwoFrames, between, resolve1
@@ -56,6 +56,10 @@ class PartialPrismatic(PartialTwoFrames, partial=True):
     r: Vector = Vector(
         Parameter(unit="m", doc="direction of sliding in frame a, of any length but zero"), (1.0, 0.0), size=2
     )
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield assert_(dot(self.r, self.r) > 0.0, "the direction `r` of sliding has no length")
 
     def direction(self) -> Vector:
         """Direction of sliding in the world frame, of length 1."""

@@ -19,7 +19,7 @@ class FixedTemperature(Component):
     """
 
     port: HeatPort = HeatPort()
-    T: Parameter = Parameter(293.15, unit="K", doc="temperature")
+    T: Parameter = Parameter(293.15, unit="K", min=0.0, doc="temperature")
 
     def equations(self) -> Equations:
         yield from super().equations()

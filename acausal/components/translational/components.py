@@ -246,6 +246,7 @@ class EndStops(Component):
         high = self.k * (s - self.s_max) + self.c * self.v
         yield self.v == der(s)
         yield self.flange.f == where(s < self.s_min, low, where(s > self.s_max, high, 0.0))
+        yield ac.assert_(self.s_min <= self.s_max, "the lower bumper is above the upper one, s_min > s_max")
 
 
 class ViscousFriction(Component):
