@@ -12,7 +12,7 @@ from scipy.special import ellipk
 import acausal as ac
 from acausal import Array, Component, Equations, Solution, System, connect, inner, start
 from acausal.components import multibody as mb
-from acausal.components import thermal
+from acausal.components import planar, thermal
 from acausal.components.examples import assemble
 
 G = 9.81
@@ -299,6 +299,30 @@ class Bouncing(Component):
 def test_mass_on_a_spring_oscillates_harmonically() -> None:
     _, solution = simulated(Bouncing(), 3.0)
     assert np.allclose(solution["spring.s"], 0.5 + 0.1 * np.cos(5.0 * solution.t), atol=1e-6)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize("plane", [False, True])
+def test_a_spring_without_length_begins_where_both_of_its_ends_meet(plane: bool, engine: Any) -> None:
+    """``f = -c r`` is smooth there, though the line has no direction: a body on it oscillates harmonically."""
+    if plane:
+        model = assemble(
+            "wall.frame - spring.frame_a", "spring.frame_b - body.frame_a", wall=planar.Fixed(),
+            spring=planar.Spring(c=100.0), planarWorld=inner(planar.PlanarWorld()),
+            body=planar.Body(r=start((0.0, 0.0), fixed=True), v=start((0.5, 0.0), fixed=True)),
+        )  # fmt: skip
+        x, y = "body.r[1]", "body.r[2]"
+    else:
+        model = assemble(
+            "world.frame_b - spring.frame_a", "spring.frame_b - body.frame_a", spring=mb.Spring(c=100.0),
+            world=inner(mb.World(g=9.81)),
+            body=mb.Body(r_0=start((0.0, 0.0, 0.0), fixed=True), v_0=start((0.5, 0.0, 0.0), fixed=True)),
+        )  # fmt: skip
+        x, y = "body.r_0[1]", "body.r_0[2]"
+    solution = ac.compile(model).simulate(1.0, engine=engine, rtol=1e-9, saveat=21)
+    t = np.asarray(solution.t)
+    np.testing.assert_allclose(solution[x], 0.05 * np.sin(10.0 * t), atol=1e-7)
+    np.testing.assert_allclose(solution[y], 0.0981 * (np.cos(10.0 * t) - 1.0), atol=1e-7)
 
 
 class Springs(Component):

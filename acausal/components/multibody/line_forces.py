@@ -17,8 +17,8 @@ from acausal import (
     is_root,
     max,
     noevent,
-    norm,
     potential_root,
+    sqrt,
 )
 
 from .. import thermal, translational
@@ -51,8 +51,9 @@ class PartialLineForce(PartialTwoFrames, partial=True):
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.r_rel_0 == self.frame_b.r_0 - self.frame_a.r_0
-        yield self.s == norm(self.r_rel_0)
-        yield self.e_rel_0 == self.r_rel_0 / noevent(max(self.s, self.s_small))
+        square = dot(self.r_rel_0, self.r_rel_0)
+        yield self.s == sqrt(noevent(max(square, self.s_small**2)))  # a root that has a derivative at zero
+        yield self.e_rel_0 == self.r_rel_0 / self.s
         for frame in (self.frame_a, self.frame_b):
             yield potential_root(frame.R, 20000)
             yield choose(is_root(frame.R), [defining(frame.R.T == IDENTITY), frame.R.w == ZEROS], [frame.t == ZEROS])

@@ -18,9 +18,9 @@ from acausal import (
     cos,
     der,
     noevent,
-    norm,
     outer,
     sin,
+    sqrt,
     vector,
 )
 from acausal import max as maximum
@@ -136,8 +136,9 @@ class PartialLineForce(PartialTwoFrames, partial=True):
     def equations(self) -> Equations:
         yield from super().equations()
         r = between(self.frame_a, self.frame_b)
-        yield self.s == norm(r)
-        yield self.e == r / noevent(maximum(self.s, self.s_small))
+        square = r[0] ** 2 + r[1] ** 2
+        yield self.s == sqrt(noevent(maximum(square, self.s_small**2)))  # a root that has a derivative at zero
+        yield self.e == r / self.s
         yield vector(self.frame_b.fx, self.frame_b.fy) == self.e * self.f
         yield self.frame_a.t == 0
         yield self.frame_b.t == 0
