@@ -8,7 +8,7 @@ from typing import Any
 
 from ..errors import DeclarationError, nearest
 from ..symbolic.expr import Expr
-from .declarations import Declaration, Kind, Start, Structural
+from .declarations import STATE_SELECT, Declaration, Kind, Start, Structural
 from .fields import Array, Shared, StructuralReference
 from .instance import Instance, call_site, field_names
 from .unknown_parameters import declared_class
@@ -64,6 +64,7 @@ def _checked_quantity(cls: type[Instance], declaration: Declaration, value: Any)
         check_bounds(f"{cls.__name__}.{name}", declaration, number)
         return value
     if isinstance(value, Start):
+        _check_start(f"{cls.__name__}.{name}", value)
         return value
     number = _number(value)
     if number is None:
@@ -72,6 +73,24 @@ def _checked_quantity(cls: type[Instance], declaration: Declaration, value: Any)
             f"{call_site()}"
         )
     return Start(value)
+
+
+def _check_start(text: str, start: Start) -> None:
+    """Raise DeclarationError if an attribute of a start value cannot be what it says."""
+    values = start.value if isinstance(start.value, (list, tuple)) else (start.value,)
+    problem = ""
+    if any(isinstance(v, str) for v in values):
+        problem = f"{start.value!r} is no number and no expression of parameters"
+    elif any(isinstance(v, float) and v != v for v in values):
+        problem = "its value is NaN"
+    elif start.fixed not in (None, True, False):
+        problem = f"fixed={start.fixed!r} is neither True nor False"
+    elif start.nominal is not None and not start.nominal > 0:
+        problem = f"nominal={start.nominal!r} must be a positive number: it is a scale"
+    elif start.state_select is not None and start.state_select not in STATE_SELECT:
+        problem = f"state_select={start.state_select!r} is not one of {', '.join(STATE_SELECT)}"
+    if problem:
+        raise DeclarationError(f"start of `{text}`: {problem} {call_site()}")
 
 
 def check_bounds(text: str, declaration: Declaration, value: Any) -> None:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import acausal as ac
+from acausal.components import translational
 
 from .user import error_of
 
@@ -724,3 +726,20 @@ def test_unknown_fields_are_attribute_errors_too() -> None:
     assert not hasattr(RC(), "resitor")
     assert getattr(RC(), "resitor", 3) == 3
     assert not hasattr(RC(), "_repr_html_")
+
+
+@pytest.mark.parametrize(
+    ("start", "text"),
+    [
+        (ac.start("2.0"), "'2.0' is no number and no expression of parameters"),
+        (ac.start(float("nan"), fixed=True), "its value is NaN"),
+        (ac.start(1.0, fixed="yes"), "fixed='yes' is neither True nor False"),  # type: ignore[arg-type]
+        (ac.start(1.0, nominal=-1.0), "nominal=-1.0 must be a positive number"),
+        (ac.start(1.0, state_select="always!"), "state_select='always!' is not one of never, avoid"),  # type: ignore[arg-type]
+    ],
+)
+def test_starts_that_cannot_be(start: Any, text: str) -> None:
+    """A start that is NaN would count as none, and the variable begin anywhere."""
+    with pytest.raises(ac.DeclarationError, match=f"start of `Mass.s`: {text}") as caught:
+        translational.Mass(s=start)
+    assert "test_declaration_errors.py" in str(caught.value)
