@@ -1,7 +1,7 @@
 """Assertions without events: conditions below `noevent`, or of parameters alone, checked where values are known.
 
-That is at the start of a run and at the points of its result. Assertions whose conditions switch at events are part of
-the event iteration.
+That is at the start of a run and at the points of its result; of `initial_equations`, at the start alone. Assertions
+whose conditions switch at events are part of the event iteration.
 """
 
 from __future__ import annotations
@@ -30,17 +30,19 @@ def check_given(system: System, t0: float, p: Any) -> None:
     Raises:
         SimulationError: one does not hold.
     """
-    found = [item for item in _errors(system) if not item.piece.rows.var_rows.shape[1]]
+    errors = [item for item in _smooth(system) if item.level == "error"]
+    found = [item for item in errors if not item.piece.rows.var_rows.shape[1]]
     _refuse(found, t0, np.zeros(0), np.asarray(p, float))
 
 
 def check_start(system: System, t0: float, x0: Any, w0: Any, p: Any) -> None:
-    """Check the other assertions at a start, without those of level ``warning``; concrete values only.
+    """Check the other assertions at a start; concrete values only. Warnings wait for the result, if not for the start.
 
     Raises:
         SimulationError: one does not hold.
     """
-    found = [item for item in _errors(system) if item.piece.rows.var_rows.shape[1]]
+    smooth = [item for item in _smooth(system) if item.at_start or item.level == "error"]
+    found = [item for item in smooth if item.piece.rows.var_rows.shape[1]]
     if not found:
         return
     low = system.lowered
@@ -57,7 +59,7 @@ def check_run(solution: Solution) -> None:
     Raises:
         SimulationError: one does not hold.
     """
-    found = _smooth(solution.system)
+    found = [item for item in _smooth(solution.system) if not item.at_start]
     if not found or not len(solution.t):
         return
     ids = _variables(found)
@@ -73,13 +75,11 @@ def _smooth(system: System) -> list[Assertion]:
     return [] if system.statements is None else [item for item in system.statements.asserts if not item.switches]
 
 
-def _errors(system: System) -> list[Assertion]:
-    return [item for item in _smooth(system) if item.level == "error"]
-
-
 def _refuse(found: list[Assertion], t0: float, values: Floats, p: Floats) -> None:
-    for text, _ in _broken(found, np.array([t0]), lambda ids: values[ids, None], p):
-        raise SimulationError(text)
+    for text, level in _broken(found, np.array([t0]), lambda ids: values[ids, None], p):
+        if level == "error":
+            raise SimulationError(text)
+        warnings.warn(text, stacklevel=4)
 
 
 def _variables(found: list[Assertion]) -> Ints:

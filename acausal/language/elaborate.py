@@ -280,6 +280,9 @@ class Elaborator:
             if isinstance(item, Choice):
                 template.choices += _choices(item, origin, initial=True)
                 continue
+            if isinstance(item, Assert):
+                template.actions.append(assertion(replace(item, at_start=True), origin))
+                continue
             if not isinstance(item, Equation):
                 cls, what = type(component).__name__, type(item).__name__.lower()
                 raise DeclarationError(f"initial_equations() of `{cls}` yields a {what}(), use equations() {origin}")

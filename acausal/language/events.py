@@ -82,11 +82,12 @@ class Terminate:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Assert:
-    """A condition that must hold, made by `assert_`."""
+    """A condition that must hold, made by `assert_`; `at_start`: at the start alone, whatever it does later."""
 
     condition: Expr
     message: str
     level: Level
+    at_start: bool = False
 
 
 Action = Mapping[Expr, Operand] | Reinit | Terminate
@@ -142,7 +143,7 @@ def assert_(condition: Operand | Equation, message: str, *, level: Level = "erro
 
     Where it ceases to hold is found as an event. ``assert_(noevent(condition), ...)``, and a condition of parameters
     alone, are checked at the start and at the points of the result instead, where their values are known (not inside of
-    JAX's transformations).
+    JAX's transformations). One that `initial_equations` yields is checked at the start alone.
     """
     if level not in ("error", "warning"):
         raise DeclarationError(f"assert_(level={level!r}): there are 'error' and 'warning'")

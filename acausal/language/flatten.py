@@ -344,7 +344,7 @@ def flatten(model: Component) -> FlatModel:
     return FlatModel(
         root=template, model_name=type(model).__name__, n_var=template.var_count, n_par=template.par_count,
         derivative_of=derivative_of, parent=parent, families=families,
-        initial=others["initial"], actions=others["action"],
+        initial=others["initial"], actions=[*others["action"], *loops.assertions],
         alias_a=joined.a, alias_b=joined.b, alias_sign=joined.sign,
         alias_source=joined.source, alias_ordinal=joined.ordinal,
         zero=joined.zero, zero_source=joined.zero_source, zero_ordinal=joined.zero_ordinal,

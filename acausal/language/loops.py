@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from .instance import path_text, record
 from .overdetermined import Mark, Overdetermined, RootCondition
 from .spanning_forest import Forest, Link, Roots, spanning_forest
 from .template import Ints, Path, Template
+from .when import assertion_form
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,12 +28,14 @@ class Loops:
     Attributes:
         kept: by connector interface and offset of each overdetermined quantity, the edges over which it is equal.
         closures: equations at the connections that close loops.
+        assertions: what must hold there, too.
         places: text of these connections, with advice for loops of that kind.
     """
 
     forest: Forest
     kept: dict[Any, dict[int, Bools]]
     closures: list[Family]
+    assertions: list[Family]
     places: list[tuple[str, str]]
 
 
@@ -92,12 +95,16 @@ class LoopFinder:
             for quantity in range(offset, offset + parts[key, offset].var_count):
                 kept.setdefault(key, {})[quantity] = mask
         closures = [f for place, rows in closing.items() for f in _closures(parts[place], np.array(rows, np.int64))]
+        assertions = [f for k in forest.cut for f in _assertions(parts[places[k][:2]], places[k][3], self._ends(k))]
         said = [(self._text(k), _advice(parts[places[k][:2]])) for k in forest.cut]
-        return Loops(forest, kept, closures, said)
+        return Loops(forest, kept, closures, assertions, said)
 
     def _text(self, k: int) -> str:
+        return f"{self._ends(k, 'with')} {self.graph.connections[k].where}"
+
+    def _ends(self, k: int, joined: str = "and") -> str:
         link = self.graph.connections[k]
-        return f"`{self.graph.names[link.a]}` with `{self.graph.names[link.b]}` {link.where}"
+        return f"`{self.graph.names[link.a]}` {joined} `{self.graph.names[link.b]}`"
 
 
 def _advice(template: Template) -> str:
@@ -129,25 +136,41 @@ def overdetermined_parts(template: Template) -> list[tuple[int, Template]]:
     ]  # fmt: skip
 
 
+def _ends(template: Template) -> tuple[Any, Any]:
+    """The connectors at both ends of a connection."""
+    bare = record(template.cls, dict(template.structural))
+    return view(bare, ("a",)), view(bare, ("b",))
+
+
 def _closures(template: Template, rows: Ints) -> list[Family]:
     """``equality_constraint`` of the connectors at both ends of connections; `rows`: (node, node, source, number)."""
-    bare = record(template.cls, dict(template.structural))
-    a, b = (view(bare, (side,)) for side in "ab")
-    out: list[Family] = []
-    for residual in a.equality_constraint(b):
-        mapping: dict[Expr, Expr] = {}
-        columns: list[Ints] = []
-        for leaf in leaves(as_expr(residual)):
-            if leaf.op != "symbol" or leaf.value[0] not in ("a", "b"):
-                raise DeclarationError(
-                    f"`{template.cls.__name__}.equality_constraint` may use quantities of the two connectors only, not "
-                    f"`{path_text(leaf.value) if leaf.op == 'symbol' else leaf}`"
-                )
-            side, *tail = leaf.value
-            offset = int(template.resolve(tuple(tail)).offsets)
-            mapping[leaf] = var(len(columns))
-            columns.append(rows[:, 0 if side == "a" else 1] + offset)
-        form = substitute(as_expr(residual), mapping)
-        none = np.zeros((len(rows), 0), np.int64)
-        out.append(Family(form, np.stack(columns, axis=1), none, rows[:, 2], rows[:, 3]))
-    return out
+    a, b = _ends(template)
+    return [_family(template, rows, as_expr(residual), "equality_constraint") for residual in a.equality_constraint(b)]
+
+
+def _assertions(template: Template, edge: tuple[int, int, int, int], ends: str) -> list[Family]:
+    """``equality_assertion`` of the connectors at both ends of one connection, which its message names."""
+    a, b = _ends(template)
+    item = a.equality_assertion(b)
+    if item is None:
+        return []
+    named = replace(item, message=f"{ends}: {item.message}", at_start=True)
+    return [_family(template, np.array([edge], np.int64), assertion_form(named), "equality_assertion")]
+
+
+def _family(template: Template, rows: Ints, written: Expr, method: str) -> Family:
+    """What a method of the connectors says of both ends, for all connections."""
+    mapping: dict[Expr, Expr] = {}
+    columns: list[Ints] = []
+    for leaf in leaves(written):
+        if leaf.op != "symbol" or leaf.value[0] not in ("a", "b"):
+            raise DeclarationError(
+                f"`{template.cls.__name__}.{method}` may use quantities of the two connectors only, not "
+                f"`{path_text(leaf.value) if leaf.op == 'symbol' else leaf}`"
+            )
+        side, *tail = leaf.value
+        offset = int(template.resolve(tuple(tail)).offsets)
+        mapping[leaf] = var(len(columns))
+        columns.append(rows[:, 0 if side == "a" else 1] + offset)
+    none = np.zeros((len(rows), 0), np.int64)
+    return Family(substitute(written, mapping), np.stack(columns, axis=1), none, rows[:, 2], rows[:, 3])

@@ -16,6 +16,7 @@ from ..errors import DeclarationError
 from ..symbolic.equation import Equation
 from ..symbolic.expr import Expr
 from .component import Connector
+from .events import Assert
 from .instance import call_site
 from .vectors import Matrix, Vector, VectorEquation
 
@@ -34,6 +35,11 @@ class Overdetermined(Connector, partial=True):
     def equality_constraint(self, other: Any) -> Vector:
         """Independent expressions that are zero where this one and the other are equal."""
         raise NotImplementedError(f"{type(self).__name__} has no equality_constraint(self, other)")
+
+    def equality_assertion(self, other: Any) -> Assert | None:
+        """What tells equality from other roots of `equality_constraint`, if it has any: an `assert_`, of the start."""
+        del other
+        return None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,7 +10,7 @@ from ..errors import DeclarationError
 from ..symbolic.equation import Equation, Origin
 from ..symbolic.expr import Expr, intern_node, make
 from .declarations import Kind
-from .events import INITIAL, Assert, Branch, Reinit, When
+from .events import INITIAL, Assert, Branch, Reinit, When, noevent
 from .template import Template, TemplateAction, TemplateEquation
 
 
@@ -103,4 +103,10 @@ def _kind(template: Template, target: Expr, origin: Origin) -> Kind:
 
 def assertion(item: Assert, origin: Origin) -> TemplateAction:
     """The action of `assert_`."""
-    return TemplateAction(intern_node("assert", (item.condition,), (item.message, item.level)), origin)
+    return TemplateAction(assertion_form(item), origin)
+
+
+def assertion_form(item: Assert) -> Expr:
+    """`assert_` as an expression."""
+    condition = noevent(item.condition) if item.at_start else item.condition
+    return intern_node("assert", (condition,), (item.message, item.level, item.at_start))

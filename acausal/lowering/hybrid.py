@@ -92,6 +92,7 @@ class Assertion:
         message: what to say where it does not hold.
         level: ``error`` or ``warning``.
         switches: whether its condition switches at events; otherwise it is evaluated where values are known.
+        at_start: it is to hold at the start alone.
     """
 
     flat: FlatModel
@@ -99,6 +100,7 @@ class Assertion:
     message: str
     level: str
     switches: bool
+    at_start: bool
 
     def text(self, t: float, row: int) -> str:
         """What to say if one row does not hold at time t [s]."""
@@ -324,8 +326,8 @@ def _action(hybrid: Hybrid, family: Family) -> None:
             hybrid.reinits.append(Reinits(piece, family.var_rows[:, leaf.value], signs))
     elif form.op == "assert":
         switches = bool((family.par_rows >= hybrid.first).any())
-        message, level = form.value
+        message, level, at_start = form.value
         piece = Piece(form.args, family, none)
-        hybrid.asserts.append(Assertion(hybrid.flat, piece, message, level, switches))
+        hybrid.asserts.append(Assertion(hybrid.flat, piece, message, level, switches, at_start))
     else:
         hybrid.ends.append((Piece(form.args, family, none), form.value))

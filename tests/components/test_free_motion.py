@@ -143,3 +143,23 @@ USERS = {
 @pytest.mark.parametrize("name", USERS)
 def test_official_trajectories_at_other_tolerances(name: str, rtol: float, engine: Any) -> None:
     assert_within(name, USERS[name](), engine, rtol=rtol)
+
+
+@pytest.mark.parametrize("guess", [
+    (1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.95, 0.0, 0.0, 0.3), (0.6, 0.7, -0.4, 0.0),
+    (0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.0, -1.0),
+])  # fmt: skip
+@pytest.mark.parametrize("kind", ["body", "spherical"])
+def test_fixed_angles_do_not_depend_on_guesses(guess: tuple[float, ...], kind: str) -> None:
+    """Whatever the quaternion is guessed to be: also half a turn off, about each axis."""
+    angles, origin = (0.4, -0.3, 0.2), start(ORIGIN, fixed=True)
+    fixed_angles: dict[str, Any] = {"angles_fixed": True, "angles_start": angles}
+    world = inner(mb.World(gravityType="NoGravity"))
+    body = mb.Body(m=1.0, r_0=origin, v_0=origin, w_0_fixed=True, Q=start(guess), **fixed_angles)
+    model: Component = assemble(world=world, body=body)
+    if kind == "spherical":
+        joint = mb.Spherical(enforceStates=True, w_rel_a_fixed=True, Q=start(guess), **fixed_angles)
+        connections = "world.frame_b - joint.frame_a", "joint.frame_b - body.frame_a"
+        model = assemble(*connections, world=world, joint=joint, body=mb.Body(m=1.0))
+    T = np.asarray(ac.compile(model).simulate(0.1)["body.frame_a.R.T"])[0].reshape(3, 3)
+    np.testing.assert_allclose(T, turned(angles), atol=1e-9)

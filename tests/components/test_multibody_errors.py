@@ -228,3 +228,41 @@ def test_angles_that_are_measured_are_those_that_were_given(sequence: tuple[int,
         sensor=mb.AbsoluteAngles(sequence=sequence),
     )  # fmt: skip
     np.testing.assert_allclose(ac.compile(model).simulate(1.0, saveat=[1.0])["sensor.angles"][0], given, atol=1e-12)
+
+
+def six_joints(phi: tuple[float, float, float]) -> Component:
+    """A chain of three slides and three hinges to a fixed place, with guesses of the angles of the hinges."""
+    axes = [tuple(row) for row in np.eye(3)]
+    slides = {f"s{k}": mb.Prismatic(n=n) for k, n in enumerate(axes)}
+    hinges = {f"h{k}": mb.Revolute(n=n, phi=start(at)) for k, (n, at) in enumerate(zip(axes, phi, strict=True))}
+    return assemble(
+        "world.frame_b - s0.frame_a", "s0.frame_b - s1.frame_a", "s1.frame_b - s2.frame_a", "s2.frame_b - h0.frame_a",
+        "h0.frame_b - h1.frame_a", "h1.frame_b - h2.frame_a", "h2.frame_b - load.frame_a - arm.frame_b",
+        "world.frame_b - arm.frame_a", **slides, **hinges, world=inner(mb.World()), load=mb.Body(m=1.0),
+        arm=mb.FixedRotation(r=(1.0, 0.2, 0.3), n=(0.0, 0.0, 1.0), angle=40.0),
+    )  # fmt: skip
+
+
+HALF_A_TURN = "orientations that are to be the same are half a turn apart: the start values of the angles are too far"
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize("phi", [(3.1, 0.0, 0.7), (0.0, 0.0, -2.4), (0.1, 3.0, 0.5)])
+def test_a_loop_that_closes_half_a_turn_off(engine: Any, phi: tuple[float, float, float]) -> None:
+    """The three residuals of its closure are zero there, too."""
+    system = ac.compile(six_joints(phi))
+    with pytest.raises(ac.SimulationError, match=rf"`\S+frame_.\.R` and `\S+frame_.\.R`: two {HALF_A_TURN}"):
+        system.simulate(0.1, engine=engine)
+    right = ac.compile(six_joints((0.3, -0.2, 0.1))).simulate(0.1, engine=engine)
+    assert [float(right[f"h{k}.phi"][-1]) for k in range(3)] == pytest.approx([0.0, 0.0, np.deg2rad(40.0)], abs=1e-9)
+
+
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+def test_a_constraint_half_a_turn_off(engine: Any) -> None:
+    quaternion = start((1.0, 0.0, 0.0, 0.0))
+    model = assemble(
+        "world.frame_b - rail.frame_a", "rail.frame_b - load.frame_a", world=inner(mb.World()),
+        rail=mb.constraints.Prismatic(y_locked=False), load=mb.Body(m=2.0, Q=quaternion),
+    )  # fmt: skip
+    with pytest.raises(ac.SimulationError, match=f"At t = 0 s the assertion of rail .*: two {HALF_A_TURN}"):
+        ac.compile(model).simulate(0.1, engine=engine)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import jax
@@ -125,3 +126,39 @@ def test_inputs_are_those_of_the_moment(engine: Any) -> None:
             system.simulate(1.0, inputs={"u": u}, saveat=t, engine=engine)
     with pytest.raises(ac.SimulationError, match=r"At t = 0 s the assertion of Fed .* too much is fed"):
         system.simulate(1.0, inputs={"u": 2.5}, saveat=t, engine=engine)
+
+
+class Begun(Tank):
+    """A tank that begins below its middle; what it does later is its own affair."""
+
+    def initial_equations(self) -> Equations:
+        yield from super().initial_equations()
+        yield assert_(self.x < 0.5 * self.top, "it begins too full")
+        yield assert_(self.x < 0.4 * self.top, "it begins rather full", level="warning")
+
+
+def test_assertions_of_the_start(engine: Any) -> None:
+    system = ac.compile(Begun())
+    assert system.hybrid is None
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert system.simulate(1.9, engine=engine)["x"][-1] == pytest.approx(1.9)
+    with pytest.raises(ac.SimulationError, match=r"At t = 0 s the assertion of Begun .* it begins too full"):
+        system.simulate(0.1, initial={"x": 1.5}, engine=engine)
+    with pytest.warns(UserWarning, match=r"At t = 0 s the assertion of Begun .* it begins rather full"):
+        system.simulate(0.1, initial={"x": 0.9}, engine=engine)
+
+
+class BegunWithEvents(Emptied):
+    """The same beside an event, behind which the condition does not hold."""
+
+    def initial_equations(self) -> Equations:
+        yield from super().initial_equations()
+        yield assert_(self.x >= 0.0, "it begins empty")
+
+
+def test_assertions_of_the_start_of_a_run_with_events(engine: Any) -> None:
+    system = ac.compile(BegunWithEvents())
+    assert system.simulate(1.0, engine=engine)["x"][-1] == pytest.approx(-0.5)
+    with pytest.raises(ac.SimulationError, match=r"At t = 0 s the assertion of BegunWithEvents .* it begins empty"):
+        system.simulate(1.0, initial={"x": -0.1}, engine=engine)

@@ -32,7 +32,7 @@ from .frames import (
     quaternion_rate,
     resolve1,
     resolve2,
-    rotation_residual,
+    rotation_between,
 )
 from .world import Grounded
 
@@ -158,7 +158,7 @@ class Body(Grounded):
         if self.useQuaternions:
             yield choose(is_root(R), [dot(self.Q, self.Q) == 1])
         if self.angles_fixed:
-            yield rotation_residual(R.T, axes_rotations(self.sequence_start, self.angles_start).T) == ZEROS
+            yield rotation_between(R.T, axes_rotations(self.sequence_start, self.angles_start).T) == ZEROS
         if self.w_0_fixed:
             yield resolve1(R, R.w) == self.w_0_start
         if self.z_0_fixed:

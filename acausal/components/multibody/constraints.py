@@ -16,6 +16,7 @@ from .frames import (
     resolve1,
     resolve2,
     rotation_residual,
+    same_sense,
     unit_vector,
 )  # fmt: skip
 from .parts import PartialTwoFrames
@@ -62,6 +63,10 @@ class Prismatic(PartialConstraint):
     def equations(self) -> Equations:
         yield from super().equations()
         yield rotation_residual(self.frame_a.R.T, self.frame_b.R.T) == ZEROS
+
+    def initial_equations(self) -> Equations:
+        yield from super().initial_equations()
+        yield same_sense(self.frame_a.R.T, self.frame_b.R.T)
 
 
 class Revolute(PartialConstraint):

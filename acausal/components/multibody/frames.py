@@ -18,11 +18,13 @@ from acausal import (
     Connector,
     DeclarationError,
     Equations,
+    Expr,
     Flow,
     Matrix,
     Overdetermined,
     Potential,
     Vector,
+    assert_,
     atan2,
     cos,
     cross,
@@ -37,6 +39,7 @@ from acausal import (
     vector,
     where,
 )
+from acausal.language.events import Assert
 from acausal.language.vectors import VectorEquation
 
 ZEROS = (0.0, 0.0, 0.0)
@@ -68,6 +71,10 @@ class Orientation(Overdetermined):
     def equality_constraint(self, other: Orientation) -> Vector:
         """Small angles of the rotation from one to the other about the three axes."""
         return rotation_residual(self.T, other.T)
+
+    def equality_assertion(self, other: Orientation) -> Assert:
+        """The other roots are half a turn off."""
+        return same_sense(self.T, other.T)
 
 
 class Frame(Connector):
@@ -282,6 +289,31 @@ def axes_quaternion(sequence: Sequence[float], angles: Sequence[float]) -> tuple
 
 
 def rotation_residual(T1: Matrix, T2: Matrix) -> Vector:
-    """Zero, all three, where both matrices are the same rotation (to first order the angles between them)."""
+    """Zero, all three, where both matrices are the same rotation (to first order the angles between them).
+
+    They are zero at half a turn between them, too: see `same_sense`.
+    """
     (_, y1, z1), (x2, y2, _) = T1.rows(), T2.rows()
     return vector(dot(z1, y2), -dot(z1, x2), dot(y1, x2))
+
+
+def same_sense(T1: Matrix, T2: Matrix) -> Assert:
+    """That two rotations for which `rotation_residual` is zero are not half a turn apart."""
+    return assert_(
+        _trace(T1, T2) > 0,
+        "two orientations that are to be the same are half a turn apart: the start values of the angles are too far "
+        "from a position in which they agree",
+    )
+
+
+def rotation_between(T1: Matrix, T2: Matrix) -> Vector:
+    """Zero, all three, where both matrices are the same rotation, and there only: ``2 n tan(phi/2)``."""
+    (x1, y1, z1), (x2, y2, z2) = T1.rows(), T2.rows()
+    turned = vector(dot(z1, y2) - dot(y1, z2), dot(x1, z2) - dot(z1, x2), dot(y1, x2) - dot(x1, y2))
+    return turned * (2 / (1 + _trace(T1, T2)))
+
+
+def _trace(T1: Matrix, T2: Matrix) -> Expr:
+    """``1 + 2 cos(phi)`` of the rotation by the angle phi from one to the other."""
+    (x1, y1, z1), (x2, y2, z2) = T1.rows(), T2.rows()
+    return dot(x1, x2) + dot(y1, y2) + dot(z1, z2)

@@ -19,7 +19,7 @@ from .frames import (
     resolve1,
     resolve2,
     resolve_relative,
-    rotation_residual,
+    rotation_between,
     unit_vector,
 )  # fmt: skip
 from .parts import PartialTwoFrames, turned
@@ -90,7 +90,7 @@ class PartialRelativeRotation(PartialTwoFrames, partial=True):
             yield dot(self.Q, self.Q) == 1
         T = axes_rotations(self.sequence_start, self.angles_start).T
         if self.angles_fixed:
-            yield rotation_residual(relative_rotation(a.R, b.R).T, T) == ZEROS
+            yield rotation_between(relative_rotation(a.R, b.R).T, T) == ZEROS
         if self.w_rel_a_fixed:
             yield resolve_relative(self.w_rel, b.R, a.R) == self.w_rel_a_start
         if self.z_rel_a_fixed:
