@@ -212,12 +212,16 @@ class Solution:
             values = jax.vmap(one)(self.t, self.x, self.w, self.slots)
         return jnp.reshape(values, (*values.shape[:1], *shape))
 
-    @functools.cached_property
+    @property
     def _n_all(self) -> int:
+        """Number of all variables; found by tracing, which takes as long as a run."""
         import jax
 
-        shape = jax.eval_shape(self.lowered.observe, self.t[0], self.x[0], self.w[0], self.p)
-        return shape.shape[0]
+        cache = cache_of(self.lowered)
+        if "n_all" not in cache:
+            shape = jax.eval_shape(self.lowered.observe, self.t[0], self.x[0], self.w[0], self.p)
+            cache["n_all"] = shape.shape[0]
+        return cache["n_all"]
 
     @property
     def _size(self) -> int:
