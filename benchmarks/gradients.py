@@ -56,9 +56,9 @@ def main(words: list[str] | None = None) -> int:
     text = (
         "A sum of squares over 201 points of the piston's displacement, 20 s at rtol 1e-6, as a function of four "
         "parameters (bulk modulus, discharge coefficient, two valve areas), jitted; the gradient by `jax.grad`: "
-        "forward sensitivities of the step itself in the native engine, checkpointed reverse mode in the diffrax "
-        "engine. *Deviation*: largest deviation of the gradient from central differences of the loss, both at rtol "
-        "1e-11, by logarithms of the parameters, relative to the largest of them."
+        "forward sensitivities of the step itself in the native engine, whose errors are controlled, too, checkpointed "
+        "reverse mode in the diffrax engine. *Deviation*: largest deviation of the gradient from central "
+        "differences of the loss, both at rtol 1e-11, by logarithms of the parameters, relative to the largest of them."
     )
     header = ("crane", "engine", "solve [ms]", "gradient [ms]", "ratio", "deviation")
     write(Section("gradients", "Gradients", "python -m benchmarks.gradients", text, header, rows))
