@@ -439,7 +439,7 @@ class PressedCylinder(Component):
     """A closed extended cylinder, held by its oil, rocks under a force; the oil stays in its chambers."""
 
     oil: hydraulic.Oil = inner(hydraulic.Oil())
-    cylinder: hydraulic.ExtendedCylinder = hydraulic.ExtendedCylinder(x=start(0.8, fixed=True))
+    cylinder: hydraulic.ExtendedCylinder = hydraulic.ExtendedCylinder(p_b_start=5e6, x=start(0.8, fixed=True))
     force: translational.Force = translational.Force()
     wave: blocks.Sine = blocks.Sine(amplitude=1e5, f=2.0)
 

@@ -418,3 +418,12 @@ def test_characteristics_of_pulses() -> None:
     first = (top - base) / (np.sqrt(2) * np.pi) * (np.sin(2 * np.pi * duty) + 1j * (1 - np.cos(2 * np.pi * duty)))
     assert solution["harmonic.y_rms"][0] == pytest.approx(abs(first), rel=1e-6)
     assert solution["harmonic.y_arg"][0] == pytest.approx(np.angle(first), abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "kind", [blocks.CombiTable1Ds, blocks.CombiTable1Dv, blocks.CombiTable2Ds, blocks.CombiTimeTable, blocks.TimeTable]
+)
+def test_a_table_that_was_forgotten_is_an_error(kind: type[Component]) -> None:
+    """Without rows of its own it would be that of another curve."""
+    with pytest.raises(ac.DeclarationError, match=f"{kind.__name__}: the table has no rows, give it some"):
+        ac.compile(assemble(table=kind()))

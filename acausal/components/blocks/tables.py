@@ -19,7 +19,7 @@ class PartialTableData(Component, partial=True):
     Source: Modelica.Blocks.Tables.CombiTable1Ds, for CSV files.
     """
 
-    table: Sequence[Sequence[float]] = ((0.0, 0.0), (1.0, 1.0))
+    table: Sequence[Sequence[float]] = ()
     tableOnFile: bool = False
     fileName: str = ""
     delimiter: str = ","
@@ -30,7 +30,8 @@ class PartialTableData(Component, partial=True):
         """The rows of the table."""
         if not self.tableOnFile:
             if not self.table:
-                raise DeclarationError(f"{type(self).__name__}: the table has no rows")
+                who = type(self).__name__
+                raise DeclarationError(f"{who}: the table has no rows, give it some: table=[[...], ...]")
             return [list(row) for row in self.table]
         try:
             found = np.loadtxt(self.fileName, delimiter=self.delimiter, skiprows=self.nHeaderLines, ndmin=2)
@@ -55,7 +56,10 @@ class PartialTable(PartialTableData, partial=True):
         """The columns that are looked up, counted from 1."""
         if self.column:
             return [self.column]
-        return [int(k) for k in self.columns] or list(range(2, len(self.rows[0]) + 1))
+        if self.columns:
+            return [int(k) for k in self.columns]
+        rows = self.rows if self.table or self.tableOnFile else [[0.0, 0.0]]  # none yet: one output
+        return list(range(2, len(rows[0]) + 1))
 
     @property
     def nout(self) -> int:
@@ -139,7 +143,7 @@ class PartialTable2D(PartialTableData, partial=True):
     Source: Modelica.Blocks.Tables.Internal.CombiTable2DBase.
     """
 
-    table: Sequence[Sequence[float]] = ((0.0, 0.0, 1.0), (0.0, 0.0, 0.0), (1.0, 0.0, 1.0))
+    table: Sequence[Sequence[float]] = ()
     smoothness: str = "LinearSegments"
     extrapolation: str = "LastTwoPoints"
 

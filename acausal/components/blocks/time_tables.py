@@ -25,12 +25,14 @@ class TimeTable(SignalSource):
     Source: Modelica.Blocks.Sources.TimeTable.
     """
 
-    table: Sequence[Sequence[float]] = ((0.0, 0.0), (1.0, 1.0))
+    table: Sequence[Sequence[float]] = ()
     timeScale: Parameter = Parameter(1.0, min=1e-30, doc="scale of the first column")
     shiftTime: Parameter = Parameter(SignalSource.startTime, unit="s", doc="time of the table's zero")
 
     def equations(self) -> Equations:
         yield from super().equations()
+        if not self.table:
+            raise DeclarationError("TimeTable: the table has no rows, give it some: table=[[time, value], ...]")
         if any(len(row) != 2 for row in self.table):
             raise DeclarationError(f"TimeTable: the table has rows of a time and a value, not {self.table[0]}")
         times, values = [row[0] for row in self.table], [row[1] for row in self.table]
