@@ -49,6 +49,7 @@ class Quantities:
     elements: tuple[Any, ...]
     depth: int = 1
     __array_ufunc__ = None  # numbers of numpy leave the operation to us
+    __acausal_elements__ = True  # and so do scalar expressions that stand on the left
     name: str = ""
 
     def _declare(self, element: Declaration, values: Any, size: int) -> None:

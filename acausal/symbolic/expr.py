@@ -52,6 +52,8 @@ class Expr:
         return add(as_expr(other), neg(self))
 
     def __mul__(self, other: Operand) -> Expr:
+        if hasattr(other, "__acausal_elements__"):  # a vector multiplies its elements itself
+            return NotImplemented
         return mul(self, as_expr(other))
 
     def __rmul__(self, other: Operand) -> Expr:

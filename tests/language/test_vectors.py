@@ -113,6 +113,26 @@ def test_arithmetic() -> None:
     assert [e.value for row in (turn @ turn.transpose()).rows() for e in row] == [1, 0, 0, 0, 1, 0, 0, 0, 1]
 
 
+class Decay(Component):
+    """Scalars multiply from both sides, expressions of them too."""
+
+    k: Parameter = Parameter(2.0)
+    to: Vector = Vector(Parameter(), (1.0, 2.0))
+    twice: Vector = Vector(Parameter(), k * to)
+    x: Vector = Vector(Variable(), (0.0, 0.0))
+    R: Matrix = Matrix(Variable(), shape=(2, 2))
+
+    def equations(self) -> Equations:
+        yield der(self.x) == -self.k * self.x + 0.5 * self.k * self.twice
+        yield self.R == ac.sin(ac.time) * matrix((1, 2), (3, 4))
+
+
+def test_a_scalar_on_the_left() -> None:
+    solution = ac.compile(Decay()).simulate(t1=1.0, rtol=1e-8)
+    np.testing.assert_allclose(solution["x"][-1], np.array([1.0, 2.0]) * (1 - np.exp(-2.0)), rtol=1e-6)
+    np.testing.assert_allclose(solution["R"][-1], np.sin(1.0) * np.arange(1, 5))
+
+
 def test_values_give_the_size() -> None:
     class Plane(Component):
         v: Vector = Vector(Parameter(), (3.0, 2.0))
