@@ -18,6 +18,7 @@ from .lowering.initial import initial_problem
 from .lowering.lowered import Lowered
 from .lowering.parameters import ParameterProgram
 from .passes.aliases import Reduced, eliminate_aliases
+from .passes.domains import hold_domains
 from .passes.evaluate import evaluate_parameters
 from .passes.events import extract_events
 from .passes.guesses import infer_guesses
@@ -123,7 +124,7 @@ def _passes(
 
     `index` is the structural index where the model has been given derivatives that it need not have.
     """
-    flat = clock("events", lambda: extract_events(written, located=located))
+    flat = clock("events", lambda: extract_events(hold_domains(written), located=located))
     program = clock("parameters", lambda: ParameterProgram(flat))
     reduced = clock("aliases", lambda: eliminate_aliases(flat))
     clock("structure check", lambda: check_structure(reduced))
@@ -156,7 +157,7 @@ def _passes(
 def located_twin(system: System) -> System:
     """The system with its conditions as modes that change at events; itself where there is nothing to locate."""
     written = system.written
-    if extract_events(written).slots.count == system.stages.flat.slots.count:
+    if extract_events(hold_domains(written)).slots.count == system.stages.flat.slots.count:
         return system
     twin = finish(written, Clock(None), system.stages.counts, located=True)
     twin.outputs, twin.made_from = system.outputs, system.made_from

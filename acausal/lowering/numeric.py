@@ -14,7 +14,7 @@ import numpy as np
 from ..language.flat_model import Family
 from ..language.template import Floats, Ints
 from ..symbolic.expr import Expr
-from ..symbolic.operators import OPERATORS
+from ..symbolic.operators import slope
 from ..symbolic.traverse import apply, evaluate, postorder_missing
 from .balanced import solve_any
 from .held import Held
@@ -195,10 +195,9 @@ def _chain(node: Expr, values: dict[int, Any], gradients: dict[int, Any], alive:
         if node.op == "call":
             rule = node.value.partial(i, node.args)
         else:
-            partial = OPERATORS[node.op].partials[i]
-            if partial is None:
+            rule = slope(node, i)
+            if rule is None:
                 continue
-            rule = partial(*node.args)
         alive.append(rule)
         factor = np.asarray(evaluate((rule,), _no_leaf, np, values)[0], float)[..., None]
         term = np.where(g == 0.0, 0.0, factor * g)

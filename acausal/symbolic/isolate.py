@@ -81,6 +81,11 @@ def invert(residual: Expr, unknown: Expr, *, ranges: bool = False) -> Expr | Non
     node, other = residual, ZERO  # invariant: node == other
     while node is not unknown:
         holding = [i for i, a in enumerate(node.args) if contains(a, unknown)]
+        odd = _odd_power(node, unknown) if len(holding) == 2 else None
+        if odd is not None:
+            node, rest, inverse = odd
+            other = inverse(div(other, rest))
+            continue
         if len(holding) != 1:
             return None
         i = holding[0]
@@ -104,3 +109,45 @@ def invert(residual: Expr, unknown: Expr, *, ranges: bool = False) -> Expr | Non
             other = inverse(other)
         node = node.args[i]
     return other
+
+
+def _odd_power(node: Expr, unknown: Expr) -> tuple[Expr, Expr, Callable[[Expr], Expr]] | None:
+    """The product of k and an odd power of x, written with ``abs(x)`` or ``sign(x)``, as laws of flow are.
+
+    Returns:
+        x, which alone contains `unknown`; k; and x as a function of the power.
+    """
+    held: dict[str, Expr] = {}
+    count, rest, pending = 0, ONE, [node]
+    while pending:
+        factor = pending.pop()
+        if not contains(factor, unknown):
+            rest = mul(rest, factor)
+        elif factor.op == "mul":
+            pending += factor.args
+        elif factor.op == "div" and not contains(factor.args[1], unknown):
+            pending.append(factor.args[0])
+            rest = div(rest, factor.args[1])
+        else:
+            held[factor.op if factor.op in ("abs", "sign") else ""] = factor
+            count += 1
+    if count != 2 or "" not in held or len(held) != 2:
+        return None
+    other = held[""]
+    if "abs" in held:
+        return (other, rest, _signed_root) if held["abs"].args[0] is other else None
+    x = held["sign"].args[0]
+    if other is power(x, const(2.0)):
+        return x, rest, _signed_root
+    size = make("abs", (x,))
+    if other is make("sqrt", (size,)) or other is power(size, const(0.5)):
+        return x, rest, _signed_square
+    return None
+
+
+def _signed_root(y: Expr) -> Expr:
+    return mul(make("sign", (y,)), make("sqrt", (make("abs", (y,)),)))
+
+
+def _signed_square(y: Expr) -> Expr:
+    return mul(y, make("abs", (y,)))

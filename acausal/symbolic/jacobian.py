@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 
 from .expr import ZERO, Expr, add, make, mul
-from .operators import OPERATORS
+from .operators import slope
 from .traverse import postorder
 
 Row = Mapping[int, Expr]
@@ -66,10 +66,9 @@ def _chain(node: Expr, rows: Mapping[int, Row]) -> Row:
         if node.op == "call":
             factor = node.value.partial(i, node.args)
         else:
-            rule = OPERATORS[node.op].partials[i]
-            if rule is None:
+            factor = slope(node, i)
+            if factor is None:
                 continue
-            factor = rule(*node.args)
         for column, d in row.items():
             terms.setdefault(column, []).append(mul(factor, d))
     return _kept({column: add(*parts) for column, parts in terms.items()})

@@ -120,3 +120,32 @@ _ROWS: Final = [
 ]  # fmt: skip
 
 OPERATORS: Final[dict[str, Operator]] = {row.name: row for row in _ROWS}
+
+
+def slope(node: Expr, i: int) -> Expr | None:
+    """Partial derivative for linearizations: as in the table, but zero where the derivative of a root is infinite.
+
+    A solution that begins at the foot of a root (an empty tank, equal pressures, a speed of zero) leaves it at once or
+    stays: its steps need no slope there, and infinity times zero would spoil the equations beside it.
+
+    Args:
+        node: an operator on expressions.
+        i: number of the operand.
+
+    Returns:
+        The derivative; None where it is zero throughout.
+    """
+    rule = OPERATORS[node.op].partials[i]
+    if rule is None:
+        return None
+    partial = rule(*node.args)
+    x = node.args[0]
+    if node.op in ("asin", "acos"):
+        return make("where", (x * x < 1.0, partial, ZERO))
+    if node.op == "sqrt" or (node.op == "pow" and i == 0 and _is_root(node.args[1])):
+        return make("where", (x > 0.0, partial, ZERO))
+    return partial
+
+
+def _is_root(exponent: Expr) -> bool:
+    return exponent.op == "const" and exponent.value > 0.0 and exponent.value != int(exponent.value)

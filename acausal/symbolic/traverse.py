@@ -108,7 +108,6 @@ def postorder_missing(roots: list[Expr], known: Mapping[int, Any]) -> list[Expr]
 
 
 _ARITHMETIC = frozenset({"add", "mul", "div", "neg", "pow"})
-_HOLDS = frozenset({"max", "min", "where", "abs"})
 
 
 def apply(node: Expr, args: list[Any], xp: Any) -> Any:
@@ -128,33 +127,31 @@ def apply(node: Expr, args: list[Any], xp: Any) -> Any:
         exponent = node.args[1]
         if exponent.op == "const" and exponent.value == int(exponent.value) and abs(exponent.value) <= 16:
             return args[0] ** int(exponent.value)
-        if exponent.op == "const" and 0.0 < exponent.value < 1.0 and _may_be_held(node.args[0]):
+        if exponent.op == "const" and exponent.value > 0.0 and _moves(node.args[0]):
             return _rooted(args[0], lambda x: xp.power(x, args[1]), xp)
         return xp.power(args[0], args[1])
-    if op == "sqrt" and _may_be_held(node.args[0]):
+    if op == "sqrt" and _moves(node.args[0]):
         return _rooted(args[0], xp.sqrt, xp)
     if op == "where":
         return xp.where(*args)
     return getattr(xp, OPERATORS[op].array)(*args)
 
 
-def _may_be_held(x: Expr) -> bool:
-    """Whether a factor of x is what may be held at zero."""
-    factors = [x]
-    while factors:
-        node = factors.pop()
-        if node.op in _HOLDS:
+def _moves(x: Expr) -> bool:
+    """Whether x depends on more than parameters."""
+    stack = [x]
+    while stack:
+        node = stack.pop()
+        if node.op in ("var", "time", "symbol"):
             return True
-        if node.op in ("mul", "div", "neg"):
-            factors += node.args[: 1 if node.op == "div" else None]
+        stack += node.args
     return False
 
 
 def _rooted(x: Any, root: Callable[[Any], Any], xp: Any) -> Any:
-    """A root of what is held at zero, as in ``sqrt(max(h, 0))``. Its slope there is zero, and not zero times infinity,
-    which is what JAX would make of it."""
-    held = x == 0.0
-    return xp.where(held, 0.0, root(xp.where(held, 1.0, x)))
+    """A root, whose slope is zero at its foot (`operators.slope`), and not zero times infinity, as in JAX."""
+    foot = x == 0.0
+    return xp.where(foot, 0.0, root(xp.where(foot, 1.0, x)))
 
 
 def _number(value: Any) -> Any:

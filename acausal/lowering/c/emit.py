@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from ...symbolic.expr import ONE, Expr, div, mul, neg
-from ...symbolic.operators import OPERATORS
+from ...symbolic.operators import slope
 from ...symbolic.traverse import postorder_missing
 from .straight import Straight, reduce_strength
 from .text import CONDITIONS, COST, number, value_text
@@ -442,5 +442,4 @@ def _factor(node: Expr, i: int) -> Expr | None:
         return reciprocal if i == 0 else neg(mul(node, reciprocal))
     if node.op == "call":
         return node.value.partial(i, node.args)
-    rule = OPERATORS[node.op].partials[i]
-    return None if rule is None else rule(*node.args)
+    return slope(node, i)
