@@ -189,7 +189,7 @@ class Variable(Declaration):
         start: value at the start, a guess unless `fixed`.
         fixed: whether `start` is an equation of the initialization.
         nominal: typical magnitude, the scale of the solvers' error control, or a parameter (`evaluate=True`) that is.
-        min: lower bound (documentation and checks).
+        min: lower bound; a solution with a value below it is an error.
         max: upper bound.
         state_select: how much the compiler should want this variable as a state; ``structural("name")`` leaves it to a
             structural parameter of the class.

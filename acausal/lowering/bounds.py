@@ -42,7 +42,7 @@ def check_parameters(flat: FlatModel, p: Any) -> None:
         computed = np.concatenate([np.zeros(0, np.int64), *(a.targets for a in flat.par_assignments)])
         given = np.setdiff1d(built_in, computed)  # what is computed has changed with what was given
         raise DeclarationError(f"`{flat.model_name}`: {evaluated_text(flat, given if len(given) else built_in)}")
-    low, high = _bounds(flat.root)
+    low, high = declared_bounds(flat.root, parameters=True)
     outside = np.flatnonzero((values[: flat.n_par] < low) | (values[: flat.n_par] > high))
     if len(outside):
         lines = [f"`{flat.model_name}`: {_many(len(outside))} a value out of bounds:"]
@@ -81,21 +81,24 @@ def _line(flat: FlatModel, index: int, text: str) -> str:
     return f"    `{flat.parameter_name(index)}`{unit}{text}{doc}    {place}"
 
 
-def _bounds(template: Template) -> tuple[Floats, Floats]:
-    """Lower and upper bounds of all parameters of a template, in its order."""
-    if "bounds" in template.cache:
-        return template.cache["bounds"]
-    own: list[Declaration] = [template.cls._declarations[n] for n, (is_par, _) in template.own.items() if is_par]
-    low = np.full(template.par_count, -np.inf)
-    high = np.full(template.par_count, np.inf)
+def declared_bounds(template: Template, *, parameters: bool) -> tuple[Floats, Floats]:
+    """Lower and upper bounds of all parameters, or of all variables, of a template, in its order."""
+    key = "bounds", parameters
+    if key in template.cache:
+        return template.cache[key]
+    names = [name for name, (is_parameter, _) in template.own.items() if is_parameter == parameters]
+    own: list[Declaration] = [template.cls._declarations[name] for name in names]
+    count = template.par_count if parameters else template.var_count
+    low, high = np.full(count, -np.inf), np.full(count, np.inf)
     low[: len(own)] = [-np.inf if d.min is None else d.min for d in own]
     high[: len(own)] = [np.inf if d.max is None else d.max for d in own]
     for slot in template.children.values():
         if slot.role == "outer":
             continue
-        for _, child, _, base, n in slot.parts():
-            below = _bounds(child)
-            end = base + n * child.par_count
+        for _, child, first_variable, first_parameter, n in slot.parts():
+            below = declared_bounds(child, parameters=parameters)
+            base = first_parameter if parameters else first_variable
+            end = base + n * len(below[0])
             low[base:end], high[base:end] = np.tile(below[0], n), np.tile(below[1], n)
-    template.cache["bounds"] = low, high
+    template.cache[key] = low, high
     return low, high

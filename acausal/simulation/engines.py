@@ -11,9 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from acausal.asserted import check_run
+from acausal.bounded import check_bounds
 from acausal.errors import SimulationError, UnknownNameError, nearest
 from acausal.lowering.c.text import NotInC
 from acausal.lowering.numeric import is_concrete
+from acausal.poles import check_poles
 
 from .arguments import check_arguments, is_saveat, within_run
 from .hybrid_run import HybridRun
@@ -48,6 +50,8 @@ def simulate(system: Any, t1: Any, *, engine: str = "auto", **options: Any) -> S
     solution = _solved(system, t1, engine, options)
     if options.get("throw", True) and is_concrete((solution.t, solution.x)):
         check_run(solution)
+        check_bounds(solution, float(options.get("rtol") or 1e-6))
+        check_poles(solution)
     return solution
 
 

@@ -1,0 +1,56 @@
+"""Bounds that are declared of variables, checked at the points of a result.
+
+An equation may have solutions that no quantity of its kind can have, as concentrations below zero. Newton's method may
+begin at one, and a step that is long enough passes a pole to one: nothing else tells.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .errors import SimulationError
+from .language.places import users_field
+from .lowering.bounds import declared_bounds
+
+if TYPE_CHECKING:
+    from .simulation.solution import Solution
+
+
+def check_bounds(solution: Solution, rtol: float) -> None:
+    """Check all variables with ``min`` or ``max`` of a solution with concrete values.
+
+    Args:
+        solution: of one run.
+        rtol: its relative tolerance: a bound may be passed by as much as this of the nominal value, ten times as much
+            of the bound.
+
+    Raises:
+        SimulationError: a value lies outside; the first one is named.
+    """
+    flat = solution.system.stages.flat
+    low, high = declared_bounds(flat.root, parameters=False)
+    bounded = np.flatnonzero(np.isfinite(low) | np.isfinite(high))
+    if not len(bounded) or not len(solution.t):
+        return
+    names = [flat.names.variable(int(i)) for i in bounded]
+    values = np.stack([np.asarray(solution._get(name), float) for name in names])
+    low, high = low[bounded, None], high[bounded, None]
+    nominal = np.where(np.isnan(flat.nominal[bounded]), 1.0, flat.nominal[bounded])[:, None]
+    with np.errstate(invalid="ignore"):  # an infinite bound has no slack
+        outside = (values < low - rtol * (nominal + 10.0 * np.abs(low))) | (
+            values > high + rtol * (nominal + 10.0 * np.abs(high))
+        )
+    if not outside.any():
+        return
+    at = int(np.argmax(outside.any(axis=0)))
+    i = int(np.argmax(outside[:, at]))
+    field = users_field(flat.root, names[i])
+    raise SimulationError(
+        f"At t = {float(solution.t[at]):.9g} s `{names[i]}` = {values[i, at]:.6g} lies outside its bounds "
+        f"[{low[i, 0]:.6g}, {high[i, 0]:.6g}]{', declared in' if field else '.'}\n"
+        + (f"    {field}\n" if field else "")
+        + "Often: the equations have another solution there, that Newton's method or a long step has come to. Try: a "
+        "start value near the solution that is meant, the `nominal` of what is small, a smaller `rtol`."
+    )
