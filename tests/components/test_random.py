@@ -15,6 +15,8 @@ from acausal import Component
 from acausal.components import blocks, electrical, hydraulic, thermal, translational
 from acausal.components.examples import assemble, start
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*below a vacuum:UserWarning")  # the books are kept there, too
+
 T = np.concatenate([[0.0], np.geomspace(1e-7, 4e-4, 1000), np.linspace(5e-4, 2.0, 8000)])
 """Dense at the start, where volumes fill in microseconds."""
 Books = Callable[[ac.Solution], tuple[Any, Any, Any]]
