@@ -404,7 +404,21 @@ def test_a_gear_and_a_brake_in_an_elastic_housing_keep_the_energy(engine: Any) -
 )
 def test_ends_in_the_wrong_order_are_an_error(part: Component, text: str) -> None:
     link = "mass.flange_b - part.flange" if isinstance(part, tr.EndStops) else "wave.y - part.u"
-    start_at = {"s": start(0.0, fixed=True), "v": start(0.0, fixed=True)}
-    model = assemble(link, part=part, mass=tr.Mass(**start_at), wave=blocks.Sine())
+    mass = tr.Mass(s=start(0.0, fixed=True), v=start(0.0, fixed=True))
+    model = assemble(link, part=part, mass=mass, wave=blocks.Sine())
     with pytest.raises(SimulationError, match=rf"assertion of part .* {text}"):
         ac.compile(model).simulate(1.0)
+
+
+def test_a_freewheel_that_begins_backwards_is_an_error() -> None:
+    """It would be locked at that relative speed."""
+    model = assemble(
+        "press.y - clutch.f_normalized", "one.flange_b - clutch.flange_a", "clutch.flange_b - two.flange_a",
+        press=blocks.Constant(k=0.0), clutch=rotational.OneWayClutch(),
+        one=rotational.Inertia(w=start(1.0, fixed=True)), two=rotational.Inertia(w=start(1.0, fixed=True)),
+    )  # fmt: skip
+    system = ac.compile(model)
+    assert system.simulate(1.0, initial={"two.w": 2.0})["two.w"][-1] == 2.0
+    assert system.simulate(1.0)["two.w"][-1] == 1.0
+    with pytest.raises(SimulationError, match=r"assertion of clutch .* flange b turns slower than flange a"):
+        system.simulate(1.0, initial={"two.w": 0.5})

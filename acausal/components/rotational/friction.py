@@ -11,6 +11,9 @@ from .. import blocks, thermal
 from ..friction import StickSlip, not_continued_below_zero, table_columns, yielding
 from .interfaces import PartialCompliantWithRelativeStates, PartialTwoFlangesAndSupport
 
+BACKWARDS = 1e-3
+"""Relative speed [rad/s] below which a freewheel is not just locked to the tolerance of a run."""
+
 
 class PartialFriction(StickSlip, partial=True):
     """State machine of dry friction: sliding forward, sliding backward, stuck, or free.
@@ -231,3 +234,7 @@ class OneWayClutch(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
         yield self.tau == where(locked, sa * self.unitTorque, where(free, 0.0, self.mu * self.cgeo * self.fn))
         yield self.stuck == where(locked | (self.w_rel <= 0), 1.0, 0.0)
         yield self.lossPower == where(self.stuck > 0.5, 0.0, self.tau * self.w_rel)
+        # Locked, it keeps its relative speed, which is zero unless it was less from the start or by a `reinit`.
+        forward = ac.noevent(self.speed >= -BACKWARDS)
+        yield ac.assert_(forward, "flange b turns slower than flange a, which a freewheel does not let it: begin with "
+                         "w_rel >= 0 (a joint speed, if both sides are to turn together)")  # fmt: skip
