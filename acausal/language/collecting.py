@@ -9,7 +9,7 @@ from typing import Any
 from ..errors import DeclarationError
 from .checking import numbers
 from .children import Child
-from .declarations import Declaration, Structural
+from .declarations import Declaration, Start, Structural
 from .fields import Array, Conditional, Shared
 from .instance import Instance
 from .sizes import sizes_of
@@ -91,6 +91,7 @@ def _collect_one(
                 f"`{cls.__name__}.{name}` and `{value.name}` share one {type(value).__name__} object: declare each "
                 f"with its own ({cls._source[0]}:{cls._source[1]})"
             )
+        _check_default(cls, value)
         declarations[name] = value
     elif isinstance(value, Conditional):
         if not isinstance(inspect.getattr_static(cls, value.condition, None), (bool, property, Structural)):
@@ -130,6 +131,22 @@ def _collect_one(
             f"`{cls.__name__}.{name}: {annotation} = {value!r}` is a plain float: use `{name}: Parameter = "
             f"Parameter({value!r})` for a quantity that can change without compiling again "
             f"({cls._source[0]}:{cls._source[1]})"
+        )
+
+
+def _check_default(cls: type[Instance], declaration: Declaration) -> None:
+    """Raise DeclarationError for a parameter whose value is no number and no expression."""
+    default, problem = declaration.default, ""
+    if isinstance(default, Start):
+        problem = (
+            "a class declares a value; what the initialization is to find is said where the component is made, "
+            f"`{cls.__name__}({declaration.name}=start(guess, fixed=False))`"
+        )
+    elif isinstance(default, str) or (isinstance(default, float) and default != default):
+        problem = f"its value {default!r} is no number and no expression of parameters"
+    if problem:
+        raise DeclarationError(
+            f"parameter `{cls.__name__}.{declaration.name}`: {problem} ({cls._source[0]}:{cls._source[1]})"
         )
 
 

@@ -188,6 +188,20 @@ CASES = {
         """,
         ["`M.R = Resistor` is a class, a field holds an instance: write `Resistor()`"],
     ),
+    "a parameter that is to be found, in a class body": (
+        """
+        class M(Component):  # HERE
+            R: Parameter = Parameter(start(1.0, fixed=False))
+        """,
+        ["parameter `M.R`: a class declares a value", "where the component is made, `M(R=start(guess, fixed=False))`"],
+    ),
+    "a parameter that is a text": (
+        """
+        class M(Component):  # HERE
+            R: Parameter = Parameter("1.0")
+        """,
+        ["parameter `M.R`: its value '1.0' is no number"],
+    ),
     "a type without a value": (
         """
         class M(Component):  # HERE
