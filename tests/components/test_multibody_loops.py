@@ -126,6 +126,7 @@ def test_planar_loop_of_plain_hinges_is_explained() -> None:
     text = str(error.value)
     assert "The model has closed loops, at the connections of" in text and "test_multibody_loops.py:" in text
     assert "replace one `Revolute` of each planar loop by `RevolutePlanarLoopConstraint`" in text
+    assert "Any other loop needs joints with seven freedoms in all to move" in text
 
 
 @pytest.mark.parametrize("engine", ["native", "diffrax"])

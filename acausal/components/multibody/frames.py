@@ -60,7 +60,9 @@ class Orientation(Overdetermined):
 
     loop_advice = (
         "If the joints of a loop are hinges with parallel axes (or slide across them), the constraints across that "
-        "plane are there several times: replace one `Revolute` of each planar loop by `RevolutePlanarLoopConstraint`."
+        "plane are there several times: replace one `Revolute` of each planar loop by `RevolutePlanarLoopConstraint`.\n"
+        "Any other loop needs joints with seven freedoms in all to move (Revolute and Prismatic have one, Universal "
+        "and Cylindrical two, Spherical three); one with fewer that moves by its measures alone has to be given them."
     )
     T: Matrix = Matrix(Potential(unit="1", doc="transformation matrix from the world frame to this frame"))
     w: Vector = Vector(Potential(unit="rad/s", doc="absolute angular velocity, resolved in this frame"))
