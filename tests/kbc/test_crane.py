@@ -81,6 +81,7 @@ OTHER: dict[str, dict[str, float]] = {
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:.*below a vacuum:UserWarning")  # on the rod side, with thin oil or a short boom
 @pytest.mark.parametrize("variant", VARIANTS, ids="-".join)
 @pytest.mark.parametrize("case", OTHER)
 def test_other_parameters(variant: Any, case: str) -> None:
