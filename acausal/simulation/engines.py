@@ -282,8 +282,8 @@ def finish(
         z, t, slots, events, result = run.z[: run.saved], save[: run.saved], None, (), RESULTS[run.code]
         p_end = p
 
-    def observe(t: Any, z: Any) -> Any:
-        return model.observe(t, z, p, signals, slots)
+    def observe(t: Any, z: Any, ids: Any = None) -> Any:
+        return model.observe(t, z, p, signals, slots, ids)
 
     x, w = z[:, : low.n_x], z[:, low.n_x :]
     solution = Solution(system, t, x, w, p, stats=stats, result=result, events=events, observe=observe)

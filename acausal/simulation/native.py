@@ -235,9 +235,12 @@ class NativeModel:
 
     # ---- what follows from the states -------------------------------------------------------------
     def observe(
-        self, t: Floats, z: Floats, p: Floats, signals: Sequence[Signal], slots: Floats | None = None
+        self, t: Floats, z: Floats, p: Floats, signals: Sequence[Signal], slots: Floats | None = None, ids: Any = None
     ) -> Floats:
-        """All variables of the flat model, (n_t, n_all); `slots` (n_t, n_slots) are those of a run with events."""
+        """All variables of the flat model, or those numbered `ids`, (n_t, n).
+
+        `slots` (n_t, n_slots) are those of a run with events.
+        """
         low = self.system.lowered
         if slots is None:
             values = self.library().observe(p, signals, t, z)
@@ -249,9 +252,10 @@ class NativeModel:
                     at = p.copy()
                     at[self.system.hybrid.slots] = slots[a]
                     values[a:b] = self.library().observe(at, signals, t[a:b], z[a:b])
-        found = values[:, low.representative]
-        found[:, low.sign < 0] *= -1.0
-        found[:, low.sign == 0] = 0.0
+        representative, sign = (a if ids is None else a[ids] for a in (low.representative, low.sign))
+        found = values[:, representative]
+        found[:, sign < 0] *= -1.0
+        found[:, sign == 0] = 0.0
         return found
 
 

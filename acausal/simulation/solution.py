@@ -58,7 +58,7 @@ class Solution:
         result: str = "successful",
         events: tuple[Any, ...] = (),
         lowered: Lowered | None = None,
-        observe: Callable[[Any, Any], Any] | None = None,
+        observe: Callable[..., Any] | None = None,
         slots: Any = None,
     ) -> None:
         self.system = system
@@ -126,6 +126,8 @@ class Solution:
 
     def values_of(self, ids: Any) -> Any:
         """Values of the variables with these numbers in the vector of all variables, shape (n_t, n)."""
+        if self._observe is not None and self._all is None and not self._traced:
+            return self._observe(self.t, np.concatenate([self.x, self.w], axis=1), ids)
         return self._values(ids)
 
     def _not_finite(self, key: Any, values: Any) -> str:
