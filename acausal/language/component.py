@@ -12,6 +12,7 @@ from ..symbolic.equation import Equation
 from .checking import by_element, checked
 from .children import present
 from .collecting import collect
+from .declarations import Kind
 from .instance import Instance, call_site, field_names, path_of, record
 from .sizes import sized
 from .unknown_parameters import declared_class, with_unknowns
@@ -51,8 +52,10 @@ class Component(Instance):
             if name in cls.__dict__:
                 setattr(cls, name, _recorded(cls, name, cls.__dict__[name]))
 
-    def __init__(self, **modifications: Any) -> None:
+    def __init__(self, *unnamed: Any, **modifications: Any) -> None:
         # modifications are checked one by one below; the class body gives the type checker their names and types
+        if unnamed:
+            raise DeclarationError(_unnamed(type(self), unnamed[0]))
         cls = fitting_class(type(self), {}, modifications)
         if cls is not type(self):
             object.__setattr__(self, "__class__", cls)
@@ -133,6 +136,16 @@ def _recorded(cls: type[Component], name: str, function: Any) -> Any:
     run.__name__, run.__doc__, run.__qualname__ = name, function.__doc__, function.__qualname__
     run.__wrapped__ = function  # type: ignore[attr-defined]
     return run
+
+
+def _unnamed(cls: type[Component], value: Any) -> str:
+    """What to say of a value without a keyword; it is mostly that of a parameter of the class itself."""
+    parameters = [name for name, declaration in cls._declarations.items() if declaration.kind == Kind.PARAMETER]
+    parameters.sort(key=lambda name: name not in cls.__dict__)
+    fields = parameters or field_names(cls)
+    example = f", as in `{cls.__name__}({fields[0]}={value!r})`" if fields else "; it has no fields"
+    more = f" (it has {', '.join(f'`{n}`' for n in fields[:8])})" if len(fields) > 1 else ""
+    return f"`{cls.__name__}` takes values by keyword{example}{more} {call_site()}"
 
 
 def fitting_class(cls: type[C], old: Mapping[str, Any], new: Mapping[str, Any]) -> type[C]:

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 import acausal as ac
-from acausal.components import translational
+from acausal.components import rotational, translational
 
 from .user import error_of
 
@@ -757,3 +757,12 @@ def test_starts_that_cannot_be(start: Any, text: str) -> None:
     with pytest.raises(ac.DeclarationError, match=f"start of `Mass.s`: {text}") as caught:
         translational.Mass(s=start)
     assert "test_declaration_errors.py" in str(caught.value)
+
+
+@pytest.mark.parametrize(("cls", "text"), [
+    (rotational.SpringDamper, r"`SpringDamper` takes .* as in `SpringDamper\(c=2\.0\)` \(it has `c`, `d`.*\.py:\d+\)"),
+    (rotational.Inertia, r"`Inertia` takes values by keyword, as in `Inertia\(J=2\.0\)` \(.*\.py:\d+\)"),
+])  # fmt: skip
+def test_values_without_a_keyword(cls: Any, text: str) -> None:
+    with pytest.raises(ac.DeclarationError, match=text):
+        cls(2.0)
