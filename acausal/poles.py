@@ -32,14 +32,16 @@ def check_poles(solution: Solution) -> None:
     Raises:
         SimulationError: a pole has been passed; names the time, what divides and the equations.
     """
-    schedule = solution.system.stages.schedule
+    schedule, t = solution.system.stages.schedule, np.asarray(solution.t, float)
+    if len(t) < 2:
+        return
+    between = _quiet(solution, t)
     for group in schedule.groups:
         quotients = _quotients(group.kernel) if group.kernel.iterates else []
         quotients = [q for q in quotients if _constant(q, group, schedule.reduced.flat.n_par)]
-        if not quotients or len(solution.t) < 2:
+        if not quotients:
             continue
-        t, values = np.asarray(solution.t, float), _values(solution, group)
-        between = _quiet(solution, t)
+        values = _values(solution, group)
         for a, b in quotients:
             with np.errstate(all="ignore"):
                 above, below = (np.broadcast_to(v, (group.size, len(t))) for v in evaluate((a, b), values, np))

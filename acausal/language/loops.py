@@ -95,14 +95,14 @@ class LoopFinder:
             for quantity in range(offset, offset + parts[key, offset].var_count):
                 kept.setdefault(key, {})[quantity] = mask
         closures = [f for place, rows in closing.items() for f in _closures(parts[place], np.array(rows, np.int64))]
-        assertions = [f for k in forest.cut for f in _assertions(parts[places[k][:2]], places[k][3], self._ends(k))]
+        assertions = [f for k in forest.cut for f in _assertions(parts[places[k][:2]], places[k][3], self._pair(k))]
         said = [(self._text(k), _advice(parts[places[k][:2]])) for k in forest.cut]
         return Loops(forest, kept, closures, assertions, said)
 
     def _text(self, k: int) -> str:
-        return f"{self._ends(k, 'with')} {self.graph.connections[k].where}"
+        return f"{self._pair(k, 'with')} {self.graph.connections[k].where}"
 
-    def _ends(self, k: int, joined: str = "and") -> str:
+    def _pair(self, k: int, joined: str = "and") -> str:
         link = self.graph.connections[k]
         return f"`{self.graph.names[link.a]}` {joined} `{self.graph.names[link.b]}`"
 

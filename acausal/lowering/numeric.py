@@ -192,12 +192,9 @@ def _chain(node: Expr, values: dict[int, Any], gradients: dict[int, Any], alive:
         return np.where(condition, parts.get(1, 0.0), parts.get(2, 0.0))
     total: Any = None
     for i, g in moving:
-        if node.op == "call":
-            rule = node.value.partial(i, node.args)
-        else:
-            rule = slope(node, i)
-            if rule is None:
-                continue
+        rule = slope(node, i)
+        if rule is None:
+            continue
         alive.append(rule)
         factor = np.asarray(evaluate((rule,), _no_leaf, np, values)[0], float)[..., None]
         term = np.where(g == 0.0, 0.0, factor * g)

@@ -42,7 +42,6 @@ def _family(family: Family) -> Family:
 def held_domains(root: Expr) -> Expr:
     """One expression; see `hold_domains`."""
     memo: dict[int, Expr] = {}
-    alive: list[Expr] = []
     for node in postorder((root,)):
         args = tuple(memo[id(a)] for a in node.args)
         same = all(a is b for a, b in zip(args, node.args, strict=True))
@@ -51,7 +50,6 @@ def held_domains(root: Expr) -> Expr:
             new = _choice(node, new)
         elif node.op == "mul":
             new = _product(node, new)
-        alive.append(new)
         memo[id(node)] = new
     return memo[id(root)]
 

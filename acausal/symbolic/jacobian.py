@@ -63,12 +63,9 @@ def _chain(node: Expr, rows: Mapping[int, Row]) -> Row:
         row = rows[id(a)]
         if not row:
             continue
-        if node.op == "call":
-            factor = node.value.partial(i, node.args)
-        else:
-            factor = slope(node, i)
-            if factor is None:
-                continue
+        factor = slope(node, i)
+        if factor is None:
+            continue
         for column, d in row.items():
             terms.setdefault(column, []).append(mul(factor, d))
     return _kept({column: add(*parts) for column, parts in terms.items()})

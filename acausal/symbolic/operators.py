@@ -129,12 +129,14 @@ def slope(node: Expr, i: int) -> Expr | None:
     stays: its steps need no slope there, and infinity times zero would spoil the equations beside it.
 
     Args:
-        node: an operator on expressions.
+        node: an operator on expressions, or a call.
         i: number of the operand.
 
     Returns:
         The derivative; None where it is zero throughout.
     """
+    if node.op == "call":
+        return node.value.partial(i, node.args)
     rule = OPERATORS[node.op].partials[i]
     if rule is None:
         return None

@@ -440,6 +440,4 @@ def _factor(node: Expr, i: int) -> Expr | None:
     if node.op == "div":
         reciprocal = div(ONE, node.args[1])
         return reciprocal if i == 0 else neg(mul(node, reciprocal))
-    if node.op == "call":
-        return node.value.partial(i, node.args)
     return slope(node, i)
