@@ -22,10 +22,38 @@ from acausal.passes.impulses import driven_states
 from .mode_search import NOISE, TURNS, Equations, ModeSearch
 from .native_library import Floats
 
+EPS = float(np.finfo(float).eps)
 JUMPS = 1e-5
 """Equations whose sides differ by more than this, relative to what is in them, jump at an event."""
 ROUNDING = 1e-13
 """Values of a condition this small, relative to the quantities in it, are rounding."""
+SIMULTANEOUS = 1e-9
+"""A sample that is this part of its interval away from an event is at the event."""
+
+
+@dataclass(frozen=True, slots=True)
+class Clock:
+    """What samples at ``start + k interval``, k = 0, 1, ...; `slot` is true at these moments."""
+
+    start: float
+    interval: float
+    slot: int
+
+    def time(self, k: float) -> float:
+        """Time of sample k [s]."""
+        return self.start + k * self.interval
+
+    def passed(self, t: float) -> float:
+        """How many samples there have been until t, those behind it by no more than rounding included."""
+        return max(0.0, float(np.floor((t - self.start) / self.interval + self._slack(t))) + 1.0)
+
+    def is_due(self, t: float) -> bool:
+        """Whether there is a sample at t itself."""
+        k = self.passed(t)
+        return k > 0 and abs(self.time(k - 1) - t) <= self._slack(t) * self.interval
+
+    def _slack(self, t: float) -> float:
+        return SIMULTANEOUS + 4 * EPS * (abs(t) + abs(self.start)) / self.interval
 
 
 @dataclass(slots=True, eq=False)
@@ -83,7 +111,7 @@ class EventIteration(ModeSearch):
         self.warned: set[tuple[int, int]] = set()
         self.jumped: set[int] = set()
         self.followed: set[int] = set()
-        self.due: list[tuple[float, float, int]] = []
+        self.clocks: list[Clock] = []
         self.moves: list[Move] = []
         self.noise: Floats = np.zeros(hybrid.roots.count)
 
@@ -343,27 +371,25 @@ class EventIteration(ModeSearch):
     # ---- samples ----------------------------------------------------------------------------------
     def schedule(self, t0: float, p: Floats) -> None:
         """Note when samples are due."""
-        self.due = []
+        self.clocks = []
         for piece in self.hybrid.samples:
             starts, intervals = piece.values(Point(t0, np.zeros(0), p))
             for slot, start, interval in zip(piece.slots.tolist(), starts, intervals, strict=True):
                 if not interval > 0.0:
                     name = self.hybrid.text(slot)
                     raise SimulationError(f"{name}: the interval is {interval:g} s and must be positive")
-                self.due.append((float(start), float(interval), slot))
+                self.clocks.append(Clock(float(start), float(interval), slot))
 
-    def next_sample(self, t: float, *, at: bool = False) -> tuple[float, list[int]]:
-        """Time of the next samples behind t (or at it), and their slots."""
-        best, slots = np.inf, list[int]()
-        for start, interval, slot in self.due:
-            k = np.ceil((t - start) / interval - 1e-9)
-            k = max(k if at else np.floor((t - start) / interval + 1e-9) + 1.0, 0.0)
-            time = start + k * interval
-            if time < best - 1e-12 * interval:
-                best, slots = time, [slot]
-            elif time <= best + 1e-12 * interval:
-                slots.append(slot)
-        return best, slots
+    def next_sample(self, t: float) -> float:
+        """Time of the next samples behind t."""
+        return min((clock.time(clock.passed(t)) for clock in self.clocks), default=np.inf)
+
+    def samples(self, since: float, t: float) -> list[int]:
+        """Slots of the samples that have become due behind `since`, until t.
+
+        An event that comes before a sample by rounding takes it along: behind the event it counts as passed.
+        """
+        return [clock.slot for clock in self.clocks if clock.passed(t) > clock.passed(since)]
 
     # ---- start ------------------------------------------------------------------------------------
     def _guess_modes(self, t0: float, p: Floats, starts: Floats) -> None:
@@ -396,9 +422,7 @@ class EventIteration(ModeSearch):
             p[piece.slots] = signs * problem.start_sign[ids] * np.nan_to_num(starts[problem.start_source[ids]])
         self._guess_modes(t0, p, starts)
         self.schedule(t0, p)
-        first, due = self.next_sample(t0, at=True)
-        intervals = {slot: interval for _, interval, slot in self.due}
-        due = [slot for slot in due if first - t0 <= 1e-9 * intervals[slot]]
+        due = [clock.slot for clock in self.clocks if clock.is_due(t0)]
         self.rounding = ROUNDING
         z, left, values = self._first_modes(t0, p, solve)
         self.rounding = 0.0

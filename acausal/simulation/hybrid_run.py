@@ -22,8 +22,6 @@ CLOSE, SHRINKING, MANY_SHRINKING = 1e-7, 0.999, 20
 """So many events in a row, each sooner than the last, up to this part of the run: they accumulate."""
 STUCK, MANY_STUCK = 1e-10, 60
 """So many events in a row without time passing, to this part of the run: they chatter."""
-SAMPLE_SLACK = 0.5e-9
-"""A sample this part of its interval behind the end of a run is taken there: a run that goes on counts it as passed."""
 EVENT = RESULTS.index("event_occurred")
 
 
@@ -195,11 +193,9 @@ def run_hybrid(
     if start.changed:
         record.event(t0, start.changed)
     ended, z_end = start.ended, start.z
-    slack = SAMPLE_SLACK * min((interval for _, interval, _ in iteration.due), default=0.0)
     while ended is None:
-        sample_time, due = iteration.next_sample(t)
-        sampled = bool(sample_time <= t1 + slack)
-        stop = float(min(sample_time, t1))
+        since, stop = t, float(min(iteration.next_sample(t), t1))
+        sampled = bool(iteration.samples(t, stop))
         segment = integrate(t, stop, z, p, save[saved:], step, sampled, max_steps - record.counts.get("steps", 0))
         p = record.segment(segment, p)
         saved += segment.saved
@@ -210,7 +206,7 @@ def run_hybrid(
         if code not in (0, EVENT):
             break
         happened = code == EVENT
-        samples = due if sampled and t >= stop else []
+        samples = iteration.samples(since, t)
         if not happened and not samples:
             break
         outcome = iteration.event(t, z_end, p, segment.switched if happened else None, samples)

@@ -92,6 +92,37 @@ def test_samples_of_unlike_periods_coincide(engine: Any, n: int) -> None:
     assert [solution[k][-1] for k in ("often", "seldom", "both")] == [3.0 * n + 1, n + 1.0, n + 1.0]
 
 
+class EndsBefore(Component):
+    """Something ends within rounding of a sample, before or behind it, and a second clock has just as much rounding."""
+
+    at: Parameter = Parameter(0.005)
+    x: Variable = Variable(start=0.0, fixed=True)
+    ticks: Discrete = Discrete(start=0)
+    others: Discrete = Discrete(start=0)
+    ends: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1.0
+        yield when(sample(-0.015, 0.02), {self.ticks: pre(self.ticks) + 1})
+        yield when(sample(0.005 + 3e-13, 0.02), {self.others: pre(self.others) + 1})
+        yield when(ac.time >= self.at, {self.ends: pre(self.ends) + 1})
+
+
+@pytest.mark.parametrize(
+    ("engine", "before"), [*(("native", d) for d in (0.0, 1e-18, 1e-15, 1e-13, -1e-13)), ("diffrax", 1e-15)]
+)
+def test_a_sample_within_rounding_of_another_event_is_not_lost(engine: Any, before: float) -> None:
+    run = ac.compile(EndsBefore()).simulate(0.05, parameters={"at": 0.005 - before}, engine=engine, saveat=2)
+    assert [run[name][-1] for name in ("ticks", "others", "ends")] == [3.0, 3.0, 1.0]
+
+
+def test_samples_far_from_time_zero_are_taken_once() -> None:
+    """At 1e6 s a period of 1 ms is known to 1e-7 of it only."""
+    system = ac.compile(Sampled())
+    run = system.simulate(1e6 + 10.0, t0=1e6, saveat=2)
+    assert [run[k][-1] for k in ("often", "seldom")] == [101.0, 33.0]
+
+
 class Chained(Component):
     """A `when` that triggers another, which triggers a third that resets the state: all at one time, in one event."""
 

@@ -183,6 +183,21 @@ class Ticking(Sampled):
         yield when(self.tick > 0.5, {self.ticks: pre(self.ticks) + 1.0})
 
 
+class Pulsed(Component):
+    """Pulses from one clock end where those from another begin, but for rounding, before the start included."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    one: Discrete = Discrete(start=0)
+    other: Discrete = Discrete(start=0)
+    ends: Discrete = Discrete(start=-1e3)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.one - self.other
+        yield when(sample(-0.15, 0.2), {self.one: pre(self.one) + 1, self.ends: ac.time + 0.1})
+        yield when(sample(-0.05, 0.2), {self.other: pre(self.other) + 1})
+        yield when(ac.time >= self.ends, reinit(self.x, pre(self.x) + 1.0))
+
+
 class Dosed(Component):
     """Two vessels that exchange what is in them and lose nothing; a dose changes their sum, by `when` and `reinit`."""
 

@@ -98,14 +98,11 @@ static int fmu_failed(fmu_instance *f, int result, double t1) {
     return FMU_DISCARD;
 }
 
-/* Whether the model has an event between now and t1, by the time; then t1 becomes its time. */
-static int fmu_before_sample(fmu_instance *f, double *t1) {
-    if (FMU_SAMPLES == 0) return 0;
+/* t1, or the time of the next samples, if that is sooner. */
+static double fmu_until_sample(fmu_instance *f, double t1) {
+    if (FMU_SAMPLES == 0) return t1;
     fmu_event_values(f);
-    const double next = fmu_next_sample(f, f->s.t, 0);
-    if (!(next <= *t1 + 0.5e-9 * f->due_interval)) return 0;
-    *t1 = ac_min(next, *t1);
-    return 1;
+    return ac_min(fmu_next_sample(f, f->s.t), t1);
 }
 
 /* Conditions that what was set has switched. */
@@ -127,18 +124,17 @@ static int fmu_chatters(fmu_instance *f, double since, double h, int *close) {
 static int fmu_stretches(fmu_instance *f, double t1, int *early, int *due) {
     const double h = t1 - f->s.t;
     for (int close = 0; f->s.t < t1 && !f->s.ended;) {
-        double stop = t1;
         const double since = f->s.t;
-        const int sampled = fmu_before_sample(f, &stop), result = fmu_integrate(f, stop);
+        const int result = fmu_integrate(f, fmu_until_sample(f, t1));
         if (result != AC_DONE && result != AC_EVENT) return fmu_failed(f, result, t1);
-        const int event = result == AC_EVENT || sampled;
+        const int sampled = FMU_SAMPLES > 0 && fmu_samples_due(f), event = result == AC_EVENT || sampled;
         *early = event && f->s.t < t1 && f->early_return;
         if (event && f->event_mode && (*early || f->s.t >= t1)) {
             *due = 1;
             return FMU_OK;
         }
         int status = FMU_OK;
-        if (event) status = fmu_event(f, result == AC_EVENT ? f->switched : NULL, result == AC_DONE, 0);
+        if (event) status = fmu_event(f, result == AC_EVENT ? f->switched : NULL, sampled, 0);
         else if (FMU_ASSERTS > 0) fmu_event_values(f), status = fmu_assert(f);
         if (status == FMU_OK && event && fmu_chatters(f, since, h, &close)) status = FMU_DISCARD;
         if (status != FMU_OK) f->s.mode = FMU_FAILED;
@@ -191,7 +187,7 @@ static int fmu_update(fmu_instance *f, int *changed, double *next) {
     memcpy(before, f->s.z, sizeof before);
     if (f->s.drifted) fmu_restore(f, 1);
     if (FMU_HYBRID > 0 && (f->s.event_due || f->s.touched)) {
-        const int switched = fmu_disagreeing(f, f->switched), sampled = FMU_SAMPLES > 0 && fmu_sample_is_due(f);
+        const int switched = fmu_disagreeing(f, f->switched), sampled = FMU_SAMPLES > 0 && fmu_samples_due(f);
         if (switched || sampled) status = fmu_event(f, switched ? f->switched : NULL, sampled, 0);
     }
     f->s.drifted = f->s.event_due = f->s.touched = 0;
@@ -199,7 +195,7 @@ static int fmu_update(fmu_instance *f, int *changed, double *next) {
     *next = INFINITY;
     if (FMU_SAMPLES > 0) {
         fmu_event_values(f);
-        *next = fmu_next_sample(f, f->s.t, 0);
+        *next = fmu_next_sample(f, f->s.t);
     }
     return status;
 }

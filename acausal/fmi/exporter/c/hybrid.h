@@ -293,30 +293,50 @@ static int fmu_iterate(fmu_instance *f) {
 }
 
 /* ---- samples ------------------------------------------------------------------------------------- */
-/* Time of the next samples behind t (or at it); those that are due then are marked. */
-static double fmu_next_sample(fmu_instance *f, double t, int at) {
+#define FMU_SIMULTANEOUS 1e-9 /* a sample that is this part of its interval away from an event is at the event */
+
+static double fmu_slack(double start, double interval, double t) {
+    return FMU_SIMULTANEOUS + 1e-15 * (fabs(t) + fabs(start)) / interval;
+}
+
+/* How many samples there have been until t of those at start + k interval, what is behind t by rounding included. */
+static double fmu_passed(double start, double interval, double t) {
+    return interval > 0.0 ? fmax(floor((t - start) / interval + fmu_slack(start, interval, t)) + 1.0, 0.0) : 0.0;
+}
+
+/* Time of the next samples behind t. */
+static double fmu_next_sample(const fmu_instance *f, double t) {
     double best = INFINITY;
-    f->due_interval = 0.0;
     for (int k = 0; k < FMU_SAMPLES; k++) {
         const double start = f->events[FMU_AT_SAMPLES + 2 * k], interval = f->events[FMU_AT_SAMPLES + 2 * k + 1];
-        if (!(interval > 0.0)) continue;
-        double n = ceil((t - start) / interval - 1e-9);
-        if (!at) n = floor((t - start) / interval + 1e-9) + 1.0;
-        const double time = start + ac_max(n, 0.0) * interval;
-        if (time < best - 1e-12 * interval) {
-            best = time;
-            f->due_interval = interval;
-            memset(f->due, 0, sizeof f->due);
-        }
-        if (time <= best + 1e-12 * interval) f->due[k] = 1;
+        if (interval > 0.0) best = fmin(best, start + fmu_passed(start, interval, t) * interval);
     }
     return best;
 }
 
-/* Whether samples are due at the time of the instance that have not been carried out; they are marked. */
-static int fmu_sample_is_due(fmu_instance *f) {
-    const double time = fmu_next_sample(f, f->s.t, 1), close = 1e-9 * ac_max(f->due_interval, 1e-3);
-    return fabs(time - f->s.t) <= close && time > f->s.sampled_until + close;
+/* Whether samples have become due since the last ones, until the time of the instance; they are marked. An event that comes
+   before a sample by rounding takes it along: behind the event it counts as passed. */
+static int fmu_samples_due(fmu_instance *f) {
+    int any = 0;
+    for (int k = 0; k < FMU_SAMPLES; k++) {
+        const double start = f->events[FMU_AT_SAMPLES + 2 * k], interval = f->events[FMU_AT_SAMPLES + 2 * k + 1];
+        f->due[k] = fmu_passed(start, interval, f->s.t) > fmu_passed(start, interval, f->s.sampled_until);
+        any |= f->due[k];
+    }
+    return any;
+}
+
+/* Whether there are samples at the time of the start itself; they are marked. */
+static int fmu_samples_at_start(fmu_instance *f) {
+    int any = 0;
+    for (int k = 0; k < FMU_SAMPLES; k++) {
+        const double start = f->events[FMU_AT_SAMPLES + 2 * k], interval = f->events[FMU_AT_SAMPLES + 2 * k + 1];
+        const double before = f->s.t - 4.0 * fmu_slack(start, interval, f->s.t) * interval;
+        f->due[k] = fmu_passed(start, interval, f->s.t) > fmu_passed(start, interval, before);
+        any |= f->due[k];
+    }
+    f->s.sampled_until = f->s.t;
+    return any;
 }
 
 static void fmu_put_samples(fmu_instance *f, double value) {
@@ -441,7 +461,6 @@ static int fmu_hybrid_start(fmu_instance *f, const ac_given *given) {
     fmu_event_values(f);
     fmu_remember(f);
     if (status == FMU_OK) status = fmu_iterate(f);
-    f->s.sampled_until = -INFINITY;
-    if (status == FMU_OK && FMU_SAMPLES > 0 && fmu_sample_is_due(f)) status = fmu_event(f, NULL, 1, 0);
+    if (status == FMU_OK && FMU_SAMPLES > 0 && fmu_samples_at_start(f)) status = fmu_event(f, NULL, 1, 0);
     return status;
 }

@@ -75,7 +75,7 @@ struct fmu_instance {
     double signal_time[2], signal_value[AC_NU + 1][2];
     double d_wanted[FMU_WANTED + 1];         /* directions of derivatives, and what follows from them */
     ac_vector dp[AC_NP + 1], dc[AC_NC + 1], dz[AC_N + 1], df[AC_N + 1], dall[AC_NALL + 1];
-    double roots[AC_NR + 1], events[FMU_EVENT_VALUES + 1], due_interval; /* at events */
+    double roots[AC_NR + 1], events[FMU_EVENT_VALUES + 1]; /* at events */
     unsigned char slot_changed[FMU_SLOTS + 1], due[FMU_SAMPLES + 1];
     double noise[AC_NR + 1];
     int switched[AC_NR + 1];
