@@ -26,6 +26,7 @@ TRUST = 4.0
 """The cubic may be wrong by so many times what it is wrong by where it is compared."""
 FAR = 10.0
 """A condition is out of reach if it is so many times its variation away from its switch."""
+EPS = float(np.finfo(float).eps)
 NARROWEST = 1e-6
 """Intervals are halved to this part of the stretch; a rest that is shorter is taken along with what is before it."""
 ROUNDING = 1e-13
@@ -50,7 +51,7 @@ class Scan:
     def first(self, begin: float, end: float) -> tuple[float, float] | None:
         """Two times around the first switch in (begin, end]; None if there is none."""
         here, width, start = begin, end - begin, self.beyond(begin)
-        narrowest = NARROWEST * width
+        narrowest = max(NARROWEST * width, 4.0 * EPS * max(abs(begin), abs(end)))  # times can be told apart
         while here < end:
             last = here + width >= end - narrowest
             span = end - here if last else width
