@@ -17,6 +17,7 @@ from scipy.sparse import csgraph
 from ..language.flat_model import Bools, Family
 from ..language.template import Floats, Ints
 from ..passes.aliases import Reduced
+from ..passes.implied import Step, implied
 from .lowered import Lowered
 
 EASE_NOT_GIVEN, EASE_ALGEBRAIC = 1e2, 1e4
@@ -54,6 +55,7 @@ class InitialProblem:
         families: initial equations.
         ease: scale of the states in the distance from the start values.
         plans: how the conditions are evaluated, by the variables that have a value (`conditions`).
+        chains: how states follow from these.
     """
 
     lowered: Lowered
@@ -64,12 +66,21 @@ class InitialProblem:
     families: list[Family]
     ease: Floats
     plans: dict[bytes, Any] = field(default_factory=dict[bytes, Any], init=False)
+    chains: dict[bytes, list[Step]] = field(default_factory=dict[bytes, list[Step]], init=False)
 
     @property
     def all_ease(self) -> Floats:
         """The same with that of the algebraic unknowns (n_x + n_w,)."""
         return np.concatenate([self.ease, EASE_ALGEBRAIC * self.lowered.w_nominal])
 
+    def chain(self, fixed: Bools, ids: Ints) -> list[Step]:
+        """How further states follow from those in the mask `fixed` and from the variables `ids`."""
+        key = fixed.tobytes() + ids.tobytes()
+        if key not in self.chains:
+            states, known = self.lowered.schedule.states, np.zeros(self.lowered.n_ids, bool)
+            known[states[fixed]] = known[ids] = True
+            self.chains[key] = implied(self.lowered.schedule.reduced, known, states[~fixed].tolist())
+        return self.chains[key]
 
 
 def initial_problem(reduced: Reduced, lowered: Lowered, families: list[Family], with_start: Bools) -> InitialProblem:
@@ -127,7 +138,7 @@ def solve_initial(
     import jax.numpy as jnp
 
     low = problem.lowered
-    given = given_starts(problem, starts, overrides, jnp)
+    given = given_starts(problem, starts, overrides, p, jnp)
     x_start, w_start, ids, wanted = given.x, given.w, given.ids, given.wanted
     if not given.conditions:
         return x_start, _algebraic(low, t0, x_start, w_start, p) if low.n_w else w_start, jnp.zeros(0)
@@ -188,8 +199,13 @@ class GivenStarts:
     conditions: bool
 
 
-def given_starts(problem: InitialProblem, starts: Any, overrides: dict[int, Any], xp: Any) -> GivenStarts:
-    """Start values with `overrides` in place; `xp` is numpy or jax.numpy."""
+def given_starts(problem: InitialProblem, starts: Any, overrides: dict[int, Any], p: Any, xp: Any) -> GivenStarts:
+    """Start values with `overrides` in place, guesses that contradict fixed ones replaced.
+
+    Args:
+        problem, starts, overrides, p: as for `solve_initial`.
+        xp: numpy or jax.numpy.
+    """
     low = problem.lowered
     states = low.schedule.states
     x = _start_of(problem, states, starts, xp)
@@ -211,7 +227,31 @@ def given_starts(problem: InitialProblem, starts: Any, overrides: dict[int, Any]
     if outside:
         ids = np.concatenate([ids, np.array(list(outside), np.int64)])
         wanted = xp.concatenate([wanted, xp.stack([xp.asarray(v, float) for v in outside.values()])])
+    x = _without_contradictions(problem, x, fixed, ids, wanted, p, xp)
     return GivenStarts(x, w, fixed, ids, wanted, bool(len(ids) or problem.families or low.n_g))
+
+
+def _without_contradictions(
+    problem: InitialProblem, x: Any, fixed: Bools, ids: Ints, wanted: Any, p: Any, xp: Any
+) -> Any:
+    """Start values of the states, with what follows from those that are `fixed` and from `wanted` of `ids`."""
+    chain = problem.chain(fixed, ids)
+    if not chain:
+        return x
+    place = {int(v): i for i, v in enumerate(problem.lowered.schedule.states)}
+    values = {int(v): wanted[i] for i, v in enumerate(ids)}
+    values |= {v: x[i] for v, i in place.items() if fixed[i]}
+    for step in chain:
+        value = step.value(values.__getitem__, p, xp)
+        values[step.target] = xp.nan if value is None else value
+        i = place.get(step.target)
+        if i is not None:
+            new = xp.where(xp.isfinite(values[step.target]), values[step.target], x[i])
+            if xp is np:
+                x[i] = new
+            else:
+                x = x.at[i].set(new)
+    return x
 
 
 def concerned(problem: InitialProblem, ids: Ints) -> Bools:

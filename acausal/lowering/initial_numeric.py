@@ -45,7 +45,7 @@ def solve_numeric(
             invariants, values of `problem.targets`, initial equations.
     """
     low = problem.lowered
-    given = given_starts(problem, starts, dict(overrides), np)
+    given = given_starts(problem, starts, dict(overrides), p, np)
     if not given.conditions:
         if not low.n_w:
             return given.x, given.w, np.zeros(0)

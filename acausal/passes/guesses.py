@@ -18,10 +18,8 @@ from ..symbolic.expr import Expr, var
 from ..symbolic.isolate import Isolated, isolate
 from ..symbolic.traverse import evaluate
 from .aliases import Reduced
+from .implied import LARGEST, implied
 from .schedule import Schedule
-
-LARGEST = 5000
-"""Models with more equations than this keep the guesses they are given."""
 
 
 def infer_guesses(schedule: Schedule, aliases: Reduced, parameters: Floats, starts: Floats) -> None:
@@ -36,6 +34,7 @@ def infer_guesses(schedule: Schedule, aliases: Reduced, parameters: Floats, star
     reduced = schedule.reduced
     flat = reduced.flat
     known = _known(aliases, starts, len(reduced.unknown))
+    _take_what_is_fixed(schedule, aliases, known, parameters)
     wanted = [int(v) for v in (*schedule.tears, *schedule.states) if v < len(known) and np.isnan(known[v])]
     if not wanted or len(reduced.rows) > LARGEST or np.isnan(known).all():
         return
@@ -54,6 +53,18 @@ def _known(aliases: Reduced, starts: Floats, n: int) -> Floats:
     for v in given[np.lexsort((own, flat.fixed[given] == 1))].tolist():  # what counts most comes last
         known[aliases.representative[v]] = aliases.sign[v] * starts[v]
     return known
+
+
+def _take_what_is_fixed(schedule: Schedule, aliases: Reduced, known: Floats, parameters: Floats) -> None:
+    """Replace the guesses of states that contradict fixed starts, in `known`."""
+    fixed = np.zeros(len(known), bool)
+    flat = aliases.flat
+    given = np.flatnonzero((flat.fixed[: len(aliases.representative)] == 1) & (aliases.sign != 0))
+    fixed[aliases.representative[given]] = True
+    fixed &= ~np.isnan(known)
+    for step in implied(schedule.reduced, fixed, schedule.states.tolist()):
+        value = step.value(lambda v: known[v], parameters, np)
+        known[step.target] = np.nan if value is None else value
 
 
 def _carry_over(reduced: Any, known: Floats, parameters: Floats) -> None:

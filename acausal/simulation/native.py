@@ -100,7 +100,7 @@ class NativeModel:
 
         def solve(p: Floats) -> tuple[Floats, Floats]:
             if own and problem.lowered.n_x + problem.lowered.n_w:
-                given_at = given_starts(problem, starts, overrides, np)
+                given_at = given_starts(problem, starts, overrides, p, np)
                 z = np.concatenate([given_at.x, given_at.w])
                 left = library.start(p, t0, given_at.fixed, problem.all_ease, given_at.wanted, z)
                 if left <= SATISFIED:

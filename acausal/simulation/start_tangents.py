@@ -52,7 +52,7 @@ class StartTangents:
             for piece, ids, signs in left_starts(system.hybrid):
                 dp[piece.slots] = (signs * problem.start_sign[ids])[:, None] * d_starts[problem.start_source[ids]]
         overrides = system._overrides(initial, np)
-        given_at = given_starts(problem, starts, overrides, np)
+        given_at = given_starts(problem, starts, overrides, started.p, np)
         dz = np.zeros((low.n_x + low.n_w, lanes))
         known = np.concatenate([low.schedule.states, low.schedule.tears])
         source, sign = problem.start_source[known], problem.start_sign[known]
