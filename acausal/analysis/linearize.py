@@ -14,6 +14,9 @@ from ..language.template import Floats
 if TYPE_CHECKING:
     from ..system import System
 
+RANK = 1e-9
+"""Singular values of the invariants' slopes below this are none: an invariant repeats others."""
+
 
 @dataclass(frozen=True, slots=True)
 class StateSpace:
@@ -26,6 +29,7 @@ class StateSpace:
         D: (n_y, n_u).
         states, inputs, outputs: names of rows and columns.
         x: states at the point, (n_x,).
+        G: slopes of the invariants of the states (n_g, n_x): deviations that the model can make have ``G x = 0``.
     """
 
     A: Floats
@@ -36,12 +40,21 @@ class StateSpace:
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     x: Floats
+    G: Floats
 
     @property
     def poles(self) -> Any:
-        """Eigenvalues of A [1/s], complex (n_x,), by real part."""
-        values = np.linalg.eigvals(self.A)
+        """Eigenvalues of A [1/s], complex, by real part; of states that invariants bind, as many as can move freely."""
+        free = _null_space(self.G)
+        values = np.linalg.eigvals(free.T @ self.A @ free)
         return values[np.lexsort((values.imag, values.real))]
+
+
+def _null_space(G: Floats) -> Floats:
+    """Orthonormal directions (n_x, n_x - rank) in which no row of G changes; rows may repeat each other."""
+    size = np.abs(G).max(axis=1, initial=0.0)
+    _, values, directions = np.linalg.svd(G[size > 0] / size[size > 0, None])
+    return directions[int((values > RANK).sum()) :].T
 
 
 def checked_inputs(system: System, inputs: Mapping[str, float] | None) -> dict[str, float]:
@@ -94,7 +107,8 @@ def linearize(
     """State-space matrices of `system` at time `t` and states `x`, by automatic differentiation.
 
     Inputs are the model's own `Input` fields; `outputs` default to those given to `acausal.compile`. Where the states
-    are bound by invariants (index reduction that kept them), A acts on the constrained coordinates together.
+    are bound by invariants (index reduction that kept them), A acts on the constrained coordinates together, and
+    `poles` are those of the deviations that the invariants allow.
 
     Args:
         system: a compiled model.
@@ -126,13 +140,14 @@ def linearize(
     ids = np.array([int(np.ravel(system.index_of(name))[0]) for name in names], np.int64)
     w_guess = jnp.asarray(w0)
 
-    def both(x: Any, u: Any) -> tuple[Any, Any]:
+    def all_of(x: Any, u: Any) -> tuple[Any, Any, Any]:
         q = jnp.asarray(p).at[first : first + n_u].set(u) if n_u else jnp.asarray(p)
         w = low.solve_algebraic(t, x, w_guess, q)
         dx, _ = low.derivatives(t, x, w, q)
-        return dx, low.observe(t, x, w, q, ids) if len(ids) else jnp.zeros(0)
+        bound = low.invariants(t, x, w, q) if low.n_g else jnp.zeros(0)
+        return dx, low.observe(t, x, w, q, ids) if len(ids) else jnp.zeros(0), bound
 
     u0 = jnp.asarray(p)[first : first + n_u]
-    (a, b), (c, d) = jax.jit(jax.jacfwd(both, argnums=(0, 1)))(x, u0)
-    a, b, c, d = (np.asarray(m) for m in (a, b, c, d))
-    return StateSpace(a, b, c, d, system.states, system.input_names, names, np.asarray(x))
+    (a, b), (c, d), (g, _) = jax.jit(jax.jacfwd(all_of, argnums=(0, 1)))(x, u0)
+    a, b, c, d, g = (np.asarray(m) for m in (a, b, c, d, g))
+    return StateSpace(a, b, c, d, system.states, system.input_names, names, np.asarray(x), g)

@@ -167,3 +167,30 @@ def test_discrete_variables_are_as_at_the_start() -> None:
     found = system.steady_state()
     assert_allclose([found["x"], found["wanted"], found["lag.y"]], [2.0, 2.0, 6.0], atol=1e-9)
     assert_allclose(system.linearize(x=found).poles, [-2.0, -1.0])
+
+
+class Cartesian(Component):
+    """A pendulum of 2 m in coordinates that a constraint binds, index 3, with friction in proportion to its speed."""
+
+    d: Parameter = Parameter(0.3)
+    x: Variable = Variable(start=0.1, fixed=True)
+    y: Variable = Variable(start=-2.0)
+    u: Variable = Variable(start=0.0, fixed=True)
+    v: Variable = Variable()
+    tension: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield der(self.x) == self.u
+        yield der(self.y) == self.v
+        yield der(self.u) == -self.tension * self.x - self.d * self.u
+        yield der(self.v) == -self.tension * self.y - self.d * self.v - 9.81
+        yield self.x**2 + self.y**2 == 4.0
+
+
+@pytest.mark.parametrize("up", [-1.0, 1.0])
+def test_poles_are_those_of_what_the_constraints_leave_free(up: float) -> None:
+    system = ac.compile(Cartesian())
+    assert len(system.states) == 4
+    about = system.linearize(x={"x": 0.0, "y": 2.0 * up, "u": 0.0, "v": 0.0, "tension": -up * 9.81 / 2.0})
+    root = np.sqrt(complex(0.15**2 + up * 9.81 / 2.0))
+    assert_allclose(about.poles, [-0.15 - root, -0.15 + root], atol=1e-9)
