@@ -23,6 +23,7 @@ from .passes.evaluate import evaluate_parameters
 from .passes.events import extract_events
 from .passes.guesses import infer_guesses
 from .passes.inputs import input_equations
+from .passes.kinks import kinks_as_conditions
 from .passes.regularize import regularize
 from .passes.reinits import check_reinits
 from .passes.schedule import make_schedule
@@ -156,7 +157,7 @@ def _passes(
 
 def located_twin(system: System) -> System:
     """The system with its conditions as modes that change at events; itself where there is nothing to locate."""
-    written = system.written
+    written = kinks_as_conditions(system.written, system.stages.index)
     if extract_events(hold_domains(written)).slots.count == system.stages.flat.slots.count:
         return system
     twin = finish(written, Clock(None), system.stages.counts, located=True)

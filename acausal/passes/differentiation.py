@@ -33,7 +33,7 @@ def structural_index(reduced: Reduced, index: IndexReduced) -> int:
     if not len(top):
         return 0
     column = index.top_assignment[top]
-    count = _differentiations(index, top)
+    count = differentiations(index, top)
     named = np.zeros(len(index.unknown), bool)
     declared = np.arange(reduced.flat.n_var)
     stands_for = reduced.representative[declared]
@@ -42,7 +42,7 @@ def structural_index(reduced: Reduced, index: IndexReduced) -> int:
     return int((count + deeper).max())
 
 
-def _differentiations(index: IndexReduced, top: Ints) -> Ints:
+def differentiations(index: IndexReduced, top: Ints) -> Ints:
     """How often each of the rows `top` has been differentiated, that which went into combinations included."""
     row, before = top.copy(), index.row_integral
     count = np.zeros(len(top), np.int64)

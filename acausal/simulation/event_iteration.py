@@ -234,9 +234,14 @@ class EventIteration(ModeSearch):
                     f"has an impulse there:\n    {flat.equation_line(rows, k)}\n"
                 )
                 if len(states):
+                    slope = low.schedule.reduced.row_integral[row] >= 0  # the equation as written has a kink
+                    source = (
+                        "whose slope does not jump (a table of cubics, or a filter of higher order behind it)" if slope
+                        else "without jumps (a steep ramp, or a filter behind it)"
+                    )  # fmt: skip
                     raise SimulationError(
-                        f"{text}With it {names} would have to jump.\nTry: a source without jumps (a steep ramp, or a "
-                        "filter behind it), or `reinit` in a `when` that says what the states are behind the jump."
+                        f"{text}With it {names} would have to jump.\nTry: a source {source}, or `reinit` in a `when` "
+                        "that says what the states are behind the jump."
                     )
                 if row not in self.jumped:
                     self.jumped.add(row)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Component, Equations, Variable, der, reinit, when, where
+from acausal import Component, Equations, Parameter, Variable, der, reinit, when, where
 from acausal.errors import SimulationError
 
 ENGINES = ("native", "diffrax")
@@ -90,3 +90,74 @@ def test_where_reinit_says_how_there_is_nothing_to_say() -> None:
         warnings.simplefilter("error")
         solution = ac.compile(Pushed()).simulate(1.0, rtol=1e-9)
     assert solution["z"][-1] == pytest.approx(np.exp(-0.5), abs=1e-7)
+
+
+class Moved(Component):
+    """A mass on a given path, and the momentum that the force on it gives."""
+
+    x: Variable = Variable(unit="m")
+    v: Variable = Variable(unit="m/s")
+    f: Variable = Variable(unit="N")
+    p: Variable = Variable(unit="N*s", start=0.0, fixed=True)
+    m: Parameter = Parameter(2.0, unit="kg")
+
+    def path(self) -> Any:
+        return ac.abs(self.phase())
+
+    def phase(self) -> Any:
+        return ac.sin(2 * ac.time - 1.0)
+
+    def equations(self) -> Equations:
+        yield self.x == self.path()
+        yield der(self.x) == self.v
+        yield self.m * der(self.v) == self.f
+        yield der(self.p) == self.f
+
+
+class Above(Moved):
+    def path(self) -> Any:
+        return ac.max(self.phase(), 0.0)
+
+
+class Within(Moved):
+    def path(self) -> Any:
+        return ac.clip(self.phase(), -2.0, 0.0)
+
+
+class AlongLines(Moved):
+    def path(self) -> Any:
+        return ac.table([0.0, 0.5, 2.0], [0.0, 1.0, 0.0])(ac.time)
+
+
+@pytest.mark.parametrize("model", [Moved, Above, Within, AlongLines])
+def test_a_kink_that_is_differentiated_twice_is_an_error(model: type[Component]) -> None:
+    text = r"(?s)At t = 0\.5 s.*der\(x\) = where.*With it `p` .*whose slope does not"
+    with pytest.raises(SimulationError, match=text):
+        ac.compile(model()).simulate(1.0)
+
+
+def test_a_kink_is_an_error_with_diffrax_too() -> None:
+    with pytest.raises(SimulationError, match=r"(?s)At t = 0\.5 s.*With it `p` would have to jump"):
+        ac.compile(Moved()).simulate(1.0, engine="diffrax")
+
+
+def test_a_square_with_a_sign_has_no_kink() -> None:
+    class Square(Moved):
+        def path(self) -> Any:
+            return self.phase() * ac.abs(self.phase())
+
+    solution = ac.compile(Square()).simulate(1.0, rtol=1e-9, saveat=5)
+    angle = 2 * np.asarray(solution.t) - 1.0
+    speed = 4 * np.abs(np.sin(angle)) * np.cos(angle)
+    np.testing.assert_allclose(solution["v"], speed, atol=1e-9)
+    np.testing.assert_allclose(solution["p"], 2.0 * (speed - speed[0]), atol=1e-7)
+
+
+def test_a_kink_that_is_differentiated_once_is_no_event() -> None:
+    class Speed(HighPass):
+        def source(self) -> Any:
+            return ac.abs(ac.time - 0.5)
+
+    solution = ac.compile(Speed()).simulate(1.0, rtol=1e-9)
+    assert not solution.events
+    np.testing.assert_allclose(solution["z"][-1], 1.0 - np.exp(-0.5) * (2.0 - np.exp(-0.5)), atol=1e-6)
