@@ -49,7 +49,7 @@ class NumericRun:
         self.t_direction = t_direction
         self.p_directions = p_directions
         self.lowered = lowered
-        self.t = t
+        self.t = np.float64(t)  # divided by, zero is infinity, where Python's own floats raise an error
         self.p = p
         states, tears = lowered.schedule.states, lowered.schedule.tears
         if directions is None:

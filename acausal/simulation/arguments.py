@@ -45,6 +45,11 @@ def is_saveat(saveat: Any) -> TypeGuard[Any]:
     return type(saveat).__module__.startswith("diffrax")
 
 
+def asks_for_steps(saveat: Any) -> bool:
+    """Whether a `SaveAt` wants more than values at given times: those at steps, between steps, or several lists."""
+    return bool(saveat.dense or not hasattr(saveat.subs, "ts") or saveat.subs.steps)
+
+
 def _check_control(options: Mapping[str, Any]) -> None:
     """Tolerances, steps and switches."""
     rtol, atol, dt = (options.get(name) for name in ("rtol", "atol", "dt"))

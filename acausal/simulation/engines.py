@@ -17,7 +17,7 @@ from acausal.lowering.c.text import NotInC
 from acausal.lowering.numeric import is_concrete
 from acausal.poles import check_poles
 
-from .arguments import check_arguments, is_saveat, within_run
+from .arguments import asks_for_steps, check_arguments, is_saveat, within_run
 from .hybrid_run import HybridRun
 from .native import NativeModel, native_model
 from .native_build import NoCompiler, compiler
@@ -142,7 +142,7 @@ def why_not_native(system: Any, options: Mapping[str, Any]) -> str | None:
     if not isinstance(options.get("events", True), bool):
         return "`events=` is a diffrax event"
     saveat = options.get("saveat")
-    if is_saveat(saveat) and (saveat.dense or not hasattr(saveat.subs, "ts") or saveat.subs.steps):
+    if is_saveat(saveat) and asks_for_steps(saveat):
         return "`saveat=` asks for the solver's own steps"
     for name, value in (options.get("inputs") or {}).items():
         if callable(value):

@@ -23,6 +23,7 @@ from acausal.lowering.initial_numeric import gauss_newton_part, solve_numeric
 from acausal.lowering.numeric import NumericRun, is_concrete
 
 from . import simulate as plain
+from .arguments import asks_for_steps, is_saveat
 from .conditions import sides
 from .continuation import followed
 from .controller import ROUNDING
@@ -360,6 +361,10 @@ def simulate_events(
         raise SimulationError(
             "`events=` with a diffrax event does not go with the model's own events: end the run with "
             "`terminate` in a `when` of the model."
+        )
+    if is_saveat(saveat) and asks_for_steps(saveat):
+        raise SimulationError(
+            "`saveat=` asks for the solver's own steps, which a run with events does not keep: give output times."
         )
     functions = {k: v for k, v in (inputs or {}).items() if callable(v)}
     signals = all_signals(system, {k: v for k, v in (inputs or {}).items() if k not in functions})

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
+import diffrax
 import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
 import acausal as ac
 from acausal import Component, Equations, Parameter, Variable, der, where
+from acausal.errors import SimulationError
 
 
 class Switched(Component):
@@ -33,3 +35,9 @@ def test_output_at_the_time_of_an_event(engine: Any) -> None:
         t = np.array([0.0, 0.5 * at, at, 2.0 * at])
         solution = system.simulate(3.0 * at, parameters={"at": at}, saveat=t, engine=engine, rtol=1e-7)
         assert_array_equal(solution["y"], [0.0, 0.0, 1.0, 1.0], err_msg=f"at {at}")
+
+
+@pytest.mark.parametrize("saveat", [diffrax.SaveAt(steps=True), diffrax.SaveAt(dense=True)], ids=["steps", "dense"])
+def test_a_run_with_events_does_not_keep_the_steps_of_the_solver(saveat: Any) -> None:
+    with pytest.raises(SimulationError, match=r"asks for the solver's own steps.*give output times"):
+        ac.compile(Switched()).simulate(3.0, saveat=saveat)

@@ -96,3 +96,16 @@ def test_a_start_at_which_time_divides() -> None:
 
     with pytest.raises(InitializationError, match=r"(?s)found no consistent start.*`y` has the fixed start value 2"):
         ac.compile(Begins()).simulate(1.0)
+
+
+def test_a_number_over_a_time_of_zero_is_an_error_of_the_start() -> None:
+    class Begins(Component):
+        x: Variable = Variable(start=1.0, fixed=True)
+        y: Variable = Variable()
+
+        def equations(self) -> Equations:
+            yield der(self.x) == -self.x
+            yield self.y == 2.0 / ac.time
+
+    with pytest.raises(InitializationError, match=r"(?s)found no consistent start.*`y` has the value 2 from"):
+        ac.compile(Begins()).simulate(1.0, initial={"y": 2.0})
