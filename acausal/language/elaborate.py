@@ -141,6 +141,7 @@ class Elaborator:
             np.full(n_par, nan), np.full(n_var, nan), np.full(n_var, -1, np.int8), np.full(n_var, nan),
             np.full(n_var, STATE_SELECT.index("default"), np.int8),
             np.array([d.kind for d in cls._declarations.values() if d.kind != Kind.PARAMETER], np.int8),
+            np.zeros(n_var, bool),
         )  # fmt: skip
         for name, declaration in cls._declarations.items():
             if declaration.kind == Kind.PARAMETER:
@@ -152,6 +153,7 @@ class Elaborator:
             nominal = _nominal(component, declaration, mods)
             given = Start(declaration.start, declaration.fixed, nominal, select)
             self._set(cls, template, out, name, given)
+            out.modified[template.own[name][1]] = False
             if name in mods:
                 self._set(cls, template, out, name, mods[name])
         return out
@@ -172,6 +174,7 @@ class Elaborator:
             return
         if not isinstance(value, Start):
             value = Start(value)
+        out.modified[k] |= value.value is not None
         if value.fixed is not None and out.kind[k] != Kind.DISCRETE:  # its start always holds, for pre(...)
             out.fixed[k] = value.fixed
         if value.nominal is not None:
@@ -246,6 +249,8 @@ class Elaborator:
             is_par, k = template.own[field_name]
             stride = template.par_count if is_par else template.var_count
             (attributes.par if is_par else attributes.start)[k::stride] = values
+            if not is_par:
+                attributes.modified[k::stride] = True
         return ChildSlot(name, [template], n, ""), [attributes]
 
     def _list(self, name: str, items: list[Component], role: str) -> tuple[ChildSlot, list[Attributes]]:

@@ -133,6 +133,8 @@ class FlatModel:
         slots: values that change at events only; they stand behind the parameters and the inputs.
         rules: ``rule(target, expression)``, derivatives of variables that follow from other equations.
         loops: connections that close loops, and advice for them.
+        modified: mask of the declared variables (n_var,) whose start value a modification has given, not their class;
+            those of the model itself count as modified. Such guesses count before others.
         evaluated: mask of the parameters that are built into the equations; `evaluated_value` are their values.
     """
 
@@ -161,6 +163,7 @@ class FlatModel:
     kind: NDArray[np.int8]
     start_assignments: list[Assignment]
     inputs: Ints
+    modified: Bools
     sources: list[Source] = field(default_factory=list[Source])
     actions: list[Family] = field(default_factory=list[Family])
     slots: Slots = field(default_factory=lambda: Slots())

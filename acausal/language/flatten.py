@@ -341,6 +341,7 @@ def flatten(model: Component) -> FlatModel:
     evaluated[np.concatenate([np.zeros(0, np.int64), *walker.evaluated])] = True
     inputs = np.array([o for n, (p, o) in template.own.items() if not p and _is_input(template, n)], np.int64)
     pad = n_total - template.var_count
+    attributes.modified[[o for is_par, o in template.own.values() if not is_par]] = True  # the model is the user's
     return FlatModel(
         root=template, model_name=type(model).__name__, n_var=template.var_count, n_par=template.par_count,
         derivative_of=derivative_of, parent=parent, families=families,
@@ -354,7 +355,7 @@ def flatten(model: Component) -> FlatModel:
         nominal=np.pad(attributes.nominal, (0, pad), constant_values=np.nan),
         select=np.pad(attributes.select, (0, pad), constant_values=2),
         kind=np.pad(attributes.kind, (0, pad), constant_values=Kind.VARIABLE),
-        start_assignments=walker.start_assignments, inputs=inputs, sources=walker.sources,
+        start_assignments=walker.start_assignments, inputs=inputs, modified=attributes.modified, sources=walker.sources,
         rules=others["rule"], loops=loops.places, evaluated=evaluated,
         evaluated_value=np.full(template.par_count, np.nan),
     )  # fmt: skip

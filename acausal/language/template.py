@@ -302,6 +302,7 @@ class Attributes:
         nominal: nan where not given.
         select: index into `STATE_SELECT`.
         kind: `Kind` of each variable.
+        modified: whether a modification has given the start value, not the class.
     """
 
     par: Floats
@@ -310,6 +311,7 @@ class Attributes:
     nominal: Floats
     select: NDArray[np.int8]
     kind: NDArray[np.int8]
+    modified: NDArray[np.bool_]
 
     def copy(self) -> Attributes:
         """An independent copy."""
@@ -317,7 +319,7 @@ class Attributes:
 
     def arrays(self) -> tuple[Any, ...]:
         """All arrays."""
-        return self.par, self.start, self.fixed, self.nominal, self.select, self.kind
+        return self.par, self.start, self.fixed, self.nominal, self.select, self.kind, self.modified
 
     @staticmethod
     def join(parts: list[Attributes]) -> Attributes:

@@ -100,14 +100,15 @@ def initial_problem(reduced: Reduced, lowered: Lowered, families: list[Family], 
     given = np.zeros(n, bool)
     given[: len(with_start)] = with_start
     members = np.flatnonzero(given[: len(reduced.representative)])
-    alias = members[reduced.representative[members] != members]
-    # later assignments win: guesses first, fixed ones last; a representative's own fixed value stays
-    for v in alias[np.argsort(fixed[alias], kind="stable")][::-1]:
+    counts = np.where(given, 1 + 2 * fixed, 0)
+    counts[: flat.n_var] += given[: flat.n_var] & flat.modified
+    # fixed values count before guesses, and guesses by modification before those of classes; then that of its own
+    for v in members[reduced.representative[members] != members].tolist():
         r = int(reduced.representative[v])
-        own = given[r] and (fixed[r] or not fixed[v])
-        if not own and not (source[r] != r and fixed[source[r]]):
+        best = int(source[r])
+        if counts[v] > counts[best] or (best != r and fixed[v] and fixed[best]):
             source[r], sign[r] = v, int(reduced.sign[v])
-            fixed[r] = fixed[r] or fixed[v]
+    fixed |= fixed[source]
     states = lowered.schedule.states
     is_state = np.zeros(n, bool)
     is_state[states] = True

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ..language.flat_model import Bools, FlatModel
 from ..language.template import Floats
 from ..symbolic.expr import Expr, var
 from ..symbolic.isolate import Isolated, isolate
@@ -34,7 +35,7 @@ def infer_guesses(schedule: Schedule, aliases: Reduced, parameters: Floats, star
     reduced = schedule.reduced
     flat = reduced.flat
     known = _known(aliases, starts, len(reduced.unknown))
-    _take_what_is_fixed(schedule, aliases, known, parameters)
+    _take_what_counts(schedule, aliases, known, parameters)
     wanted = [int(v) for v in (*schedule.tears, *schedule.states) if v < len(known) and np.isnan(known[v])]
     if not wanted or len(reduced.rows) > LARGEST or np.isnan(known).all():
         return
@@ -45,26 +46,42 @@ def infer_guesses(schedule: Schedule, aliases: Reduced, parameters: Floats, star
 
 
 def _known(aliases: Reduced, starts: Floats, n: int) -> Floats:
-    """Values of the reduced variables; fixed ones before guesses, those of the variable itself before an alias's."""
+    """Values of the reduced variables; fixed ones before guesses, those that modifications have given before those of
+    classes, then those of the variable itself before an alias's."""
     known = np.full(n, np.nan)
     flat = aliases.flat
     given = np.flatnonzero(~np.isnan(starts[: len(aliases.representative)]) & (aliases.sign != 0))
     own = aliases.representative[given] == given
-    for v in given[np.lexsort((own, flat.fixed[given] == 1))].tolist():  # what counts most comes last
+    order = np.lexsort((own, _modified(flat)[given], flat.fixed[given] == 1))  # what counts most comes last
+    for v in given[order].tolist():
         known[aliases.representative[v]] = aliases.sign[v] * starts[v]
     return known
 
 
-def _take_what_is_fixed(schedule: Schedule, aliases: Reduced, known: Floats, parameters: Floats) -> None:
-    """Replace the guesses of states that contradict fixed starts, in `known`."""
-    fixed = np.zeros(len(known), bool)
+def _modified(flat: FlatModel) -> Bools:
+    """Mask of all variables, derivatives too, whose start value a modification has given."""
+    return np.pad(flat.modified, (0, flat.n_total - flat.n_var))
+
+
+def _take_what_counts(schedule: Schedule, aliases: Reduced, known: Floats, parameters: Floats) -> None:
+    """Replace what contradicts fixed starts in `known`, and guesses of classes for states that contradict those of
+    modifications, there and in `flat.start`.
+    """
     flat = aliases.flat
-    given = np.flatnonzero((flat.fixed[: len(aliases.representative)] == 1) & (aliases.sign != 0))
-    fixed[aliases.representative[given]] = True
-    fixed &= ~np.isnan(known)
-    for step in implied(schedule.reduced, fixed, schedule.states.tolist()):
-        value = step.value(lambda v: known[v], parameters, np)
-        known[step.target] = np.nan if value is None else value
+    fixed, modified = flat.fixed[: len(aliases.representative)] == 1, _modified(flat)[: len(aliases.representative)]
+    of_class = np.ones(len(known), bool)
+    for assignment in flat.start_assignments:
+        of_class[assignment.targets] = False  # a matter of the parameters of each run
+    chosen = np.zeros(len(known), bool)
+    for counts in (fixed, modified):
+        chosen[aliases.representative[counts & (aliases.sign != 0)]] = True
+        chosen &= ~np.isnan(known)
+        for step in implied(schedule.reduced, chosen, schedule.states.tolist()):
+            value = step.value(lambda v: known[v], parameters, np)
+            known[step.target] = np.nan if value is None else value
+            chosen[step.target] = np.isfinite(known[step.target])
+            if counts is modified and chosen[step.target] and of_class[step.target]:
+                flat.start[step.target] = known[step.target]
 
 
 def _carry_over(reduced: Any, known: Floats, parameters: Floats) -> None:

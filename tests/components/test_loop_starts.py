@@ -67,6 +67,15 @@ def test_the_fixed_angle_of_a_crank_counts_before_the_guess_of_its_damper(side: 
     np.testing.assert_allclose((solution["knee.phi"][0], solution["hip.phi"][0]), joints(2.0, side), atol=1e-9)
 
 
+def test_the_guess_of_a_model_counts_before_that_of_a_class() -> None:
+    """That of the damper's angle, zero, is one of its class."""
+    knee, hip = joints(2.0, 1.0)
+    crank = planar.Revolute(useFlange=True, phi=start(2.0, fixed=False), w=start(1.0, fixed=True))
+    parts: Any = {"crank": crank, "knee": planar.Revolute(phi=start(knee)), "hip": planar.Revolute(phi=start(hip))}
+    solution = ac.compile(FourBar(**parts)).simulate(1e-3, saveat=2)
+    np.testing.assert_allclose([solution[f"{n}.phi"][0] for n in ("crank", "knee", "hip")], (2.0, knee, hip), atol=1e-9)
+
+
 @pytest.mark.parametrize("inside", [False, True])
 def test_an_angle_that_is_given_to_a_run_counts_too(inside: bool) -> None:
     """The guesses are those for -3 rad, where the crank stands by its declaration at 2 rad."""

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Array, Component, Equations, Parameter, Variable, der
+from acausal import Array, Component, Connector, Equations, Flow, Parameter, Potential, Variable, connect, der, start
 from acausal.errors import InitializationError
 
 
@@ -357,3 +357,45 @@ def test_a_start_where_a_linear_system_is_singular_is_an_error(engine: Any) -> N
     system = ac.compile(Middle(x=ac.start(0.0, fixed=True)))
     with pytest.raises(ac.SimulationError, match=r"do not determine their unknowns:\n\s+x\*f \+ g = 3"):
         system.simulate(1.0, engine=engine)
+
+
+class Node(Connector):
+    v: Potential = Potential()
+    i: Flow = Flow()
+
+
+class Store(Component):
+    node: Node = Node()
+    x: Variable = Variable(start=1.0)
+
+    def equations(self) -> Equations:
+        yield self.x == self.node.v
+        yield der(self.x) == self.node.i
+
+
+class Leak(Component):
+    node: Node = Node()
+    y: Variable = Variable()
+
+    def equations(self) -> Equations:
+        yield self.y == self.node.v
+        yield self.node.i == self.y
+
+
+class Leaking(Component):
+    z: Variable = Variable(start=4.0)
+    store: Store = Store()
+    leak: Leak = Leak()
+
+    def equations(self) -> Equations:
+        yield connect(self.store.node, self.leak.node)
+        yield self.z == 2 * self.leak.y
+
+
+def test_guesses_by_modification_count_before_those_of_classes() -> None:
+    assert started(Leaking(leak=Leak(y=start(5.0)))) == {"store.x": 5.0}
+    assert started(Leaking(leak=Leak(y=start(5.0)), store=Store(x=start(3.0)))) == {"store.x": 3.0}
+
+
+def test_guesses_of_the_model_count_before_those_of_the_classes_of_its_parts() -> None:
+    assert started(Leaking()) == {"store.x": 2.0}
