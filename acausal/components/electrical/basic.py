@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import acausal as ac
-from acausal import PI, Component, Equations, Expr, Input, Parameter, Variable, der, noevent, where
+from acausal import PI, Component, Equations, Input, Parameter, Variable, der, noevent, where
 
 from .interfaces import ConditionalHeatPort, OnePort, Pin
 
@@ -41,14 +41,13 @@ class Resistor(ConditionalHeatPort, OnePort):
     alpha: Parameter = Parameter(0.0, unit="1/K", doc="temperature coefficient of the resistance")
     T: Parameter = Parameter(T_ref, unit="K", doc="temperature of the device without a heat port")
 
-    @property
-    def R_actual(self) -> Expr:
-        """Resistance at the temperature of the device [ohm]."""
-        return self.R * (1 + self.alpha * (self.T_heatPort - self.T_ref))
+    R_actual: Variable = Variable(unit="ohm", doc="resistance at the temperature of the device")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.v == self.R_actual * self.i
+        resistance = self.R * (1 + self.alpha * (self.temperature - self.T_ref))
+        yield self.R_actual == resistance
+        yield self.v == resistance * self.i
         yield self.LossPower == self.v * self.i
 
 
@@ -67,10 +66,13 @@ class Conductor(ConditionalHeatPort, OnePort):
     T_ref: Parameter = Parameter(300.15, unit="K", doc="reference temperature")
     alpha: Parameter = Parameter(0.0, unit="1/K", doc="temperature coefficient of the resistance")
     T: Parameter = Parameter(T_ref, unit="K", doc="temperature of the device without a heat port")
+    G_actual: Variable = Variable(unit="S", doc="conductance at the temperature of the device")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.i == self.G / (1 + self.alpha * (self.T_heatPort - self.T_ref)) * self.v
+        conductance = self.G / (1 + self.alpha * (self.temperature - self.T_ref))
+        yield self.G_actual == conductance
+        yield self.i == conductance * self.v
         yield self.LossPower == self.v * self.i
 
 
@@ -163,10 +165,13 @@ class VariableResistor(ConditionalHeatPort, OnePort):
     T_ref: Parameter = Parameter(300.15, unit="K", doc="reference temperature")
     alpha: Parameter = Parameter(0.0, unit="1/K", doc="temperature coefficient of the resistance")
     T: Parameter = Parameter(T_ref, unit="K", doc="temperature of the device without a heat port")
+    R_actual: Variable = Variable(unit="ohm", doc="resistance at the temperature of the device")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.v == self.R * (1 + self.alpha * (self.T_heatPort - self.T_ref)) * self.i
+        resistance = self.R * (1 + self.alpha * (self.temperature - self.T_ref))
+        yield self.R_actual == resistance
+        yield self.v == resistance * self.i
         yield self.LossPower == self.v * self.i
 
 
@@ -186,10 +191,13 @@ class VariableConductor(ConditionalHeatPort, OnePort):
     T_ref: Parameter = Parameter(300.15, unit="K", doc="reference temperature")
     alpha: Parameter = Parameter(0.0, unit="1/K", doc="temperature coefficient of the resistance")
     T: Parameter = Parameter(T_ref, unit="K", doc="temperature of the device without a heat port")
+    G_actual: Variable = Variable(unit="S", doc="conductance at the temperature of the device")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.i == self.G / (1 + self.alpha * (self.T_heatPort - self.T_ref)) * self.v
+        conductance = self.G / (1 + self.alpha * (self.temperature - self.T_ref))
+        yield self.G_actual == conductance
+        yield self.i == conductance * self.v
         yield self.LossPower == self.v * self.i
 
 
@@ -281,7 +289,7 @@ class Potentiometer(ConditionalHeatPort):
         yield from super().equations()
         if not self.useRinput:
             yield self.r == self.rConstant
-        resistance = self.R * (1 + self.alpha * (self.T_heatPort - self.T_ref))
+        resistance = self.R * (1 + self.alpha * (self.temperature - self.T_ref))
         share = ac.clip(self.r, 0.0, 1.0)
         upper, lower = self.pin_p.v - self.contact.v, self.pin_n.v - self.contact.v
         yield self.pin_p.i + self.pin_n.i + self.contact.i == 0

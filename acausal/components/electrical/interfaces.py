@@ -82,13 +82,16 @@ class ConditionalHeatPort(Component, partial=True):
     T: Parameter = Parameter(293.15, unit="K", doc="temperature of the device without a heat port")
     LossPower: Variable = Variable(unit="W", doc="power lost as heat")
 
+    T_heatPort: Variable = Variable(unit="K", doc="temperature of the device")
+
     @property
-    def T_heatPort(self) -> Expr:
-        """Temperature of the device [K]."""
+    def temperature(self) -> Expr:
+        """`T_heatPort` as what it is equal to, for the equations of the device [K]."""
         return self.heatPort.T if self.useHeatPort else self.T
 
     def equations(self) -> Equations:
         yield from super().equations()
+        yield self.T_heatPort == self.temperature
         if self.useHeatPort:
             yield self.heatPort.Q_flow == -self.LossPower
 

@@ -51,7 +51,7 @@ class SeriesResistance(ConditionalHeatPort, OnePort):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        ohmic = self.part(self.r) * (1 + self.alpha * (self.T_heatPort - self.T_ref)) * self.i
+        ohmic = self.part(self.r) * (1 + self.alpha * (self.temperature - self.T_ref)) * self.i
         yield self.v == ohmic + self.induced()
         yield self.LossPower == ohmic * self.i
 
@@ -102,7 +102,7 @@ class ShuntAdmittance(ConditionalHeatPort, OnePort):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        leak = self.g * self.length / self.N / (1 + self.alpha * (self.T_heatPort - self.T_ref)) * self.v
+        leak = self.g * self.length / self.N / (1 + self.alpha * (self.temperature - self.T_ref)) * self.v
         yield self.i == leak + self.c * self.length / self.N * der(self.v)
         yield self.LossPower == leak * self.v
 

@@ -151,16 +151,22 @@ class OpAmpLimited(Component):
     v_in: Variable = Variable(unit="V", start=0.0, doc="input voltage")
     v_int: Variable = Variable(unit="V", start=0.0, doc="output voltage without limits")
     v_out: Variable = Variable(unit="V", doc="output voltage against ground")
+    p_in: Variable = Variable(unit="W", doc="power at the inputs")
+    p_out: Variable = Variable(unit="W", doc="power at the output, negative where it is delivered")
+    p_s: Variable = Variable(unit="W", doc="power of the supply, -(p_in + p_out)")
     i_s: Variable = Variable(unit="A", doc="current of the supply")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        delivered = -(self.in_p.v * self.in_p.i + self.in_n.v * self.in_n.i + self.out.v * self.out.i)
+        taken, given = self.in_p.v * self.in_p.i + self.in_n.v * self.in_n.i, self.out.v * self.out.i
+        yield self.p_in == taken
+        yield self.p_out == given
+        yield self.p_s == -(taken + given)
         yield self.in_p.i == 0
         yield self.in_n.i == 0
         yield self.v_in == self.in_p.v - self.in_n.v
         yield self.v_out == self.out.v
-        yield self.i_s == delivered / (self.vps - self.vns)
+        yield self.i_s == -(taken + given) / (self.vps - self.vns)
         if self.useSupply:
             yield self.vps == self.s_p.v
             yield self.vns == self.s_n.v

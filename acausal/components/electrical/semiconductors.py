@@ -55,17 +55,21 @@ class Diode(ConditionalHeatPort, OnePort):
     TNOM: Parameter = Parameter(300.15, unit="K", doc="temperature at which the parameters were measured")
     XTI: Parameter = Parameter(3.0, unit="1", doc="temperature exponent of the saturation current")
     k_q: Parameter = Parameter(BOLTZMANN / CHARGE, unit="V/K", doc="Boltzmann constant over the elementary charge")
-    vt_t: Variable = Variable(unit="V", doc="voltage equivalent of the device's temperature")
+    vt_t: Variable = Variable(unit="V", doc="voltage equivalent of the device's temperature, k T/q")
+    id: Variable = Variable(unit="A", doc="current without that of R and the growth of Ids")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.vt_t == (self.k_q * self.T_heatPort if self.useTemperatureDependency else self.Vt)
+        thermal = self.k_q * self.temperature
+        ratio, scale, growth = self.temperature / self.TNOM, self.N * thermal, 1.0
         if self.useTemperatureDependency:
-            ratio, thermal = self.T_heatPort / self.TNOM, self.N * self.k_q * self.T_heatPort
-            growth = ratio ** (self.XTI / self.N) * exp((ratio - 1) * self.EG / thermal)
-            yield self.i == self.Ids * growth * (exlin(self.v / thermal, self.Maxexp) - 1) + self.v / self.R
+            growth = ratio ** (self.XTI / self.N) * exp((ratio - 1) * self.EG / scale)
         else:
-            yield self.i == self.Ids * (exlin(self.v / self.Vt, self.Maxexp) - 1) + self.v / self.R
+            scale = self.Vt * 1.0
+        shockley = self.Ids * (exlin(self.v / scale, self.Maxexp) - 1)
+        yield self.vt_t == thermal
+        yield self.id == shockley
+        yield self.i == growth * shockley + self.v / self.R
         yield self.LossPower == self.v * self.i
 
 
@@ -115,7 +119,7 @@ class Diode2(ConditionalHeatPort, OnePort):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        thermal = self.N * (self.k_q * self.T_heatPort if self.useHeatPort else self.Vt)
+        thermal = self.N * (self.k_q * self.temperature if self.useHeatPort else self.Vt)
         top = self.Vf + thermal
         forward = self.Ids * (exlin(minimum(self.vd, top) / thermal, 1e300) - 1)
         forward = forward + maximum(self.vd - top, 0.0) * self.Ids * exp(top / thermal) / thermal

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from acausal import Equations, Expr, Parameter, Variable, conditional, der, noevent, where
 from acausal import max as maximum
 from acausal import min as minimum
@@ -21,7 +23,7 @@ class PartialTemperatureDependent(ConditionalHeatPort, partial=True):
     heatPort: thermal.HeatPort = conditional(thermal.HeatPort(), "useTemperatureDependency")
 
     @property
-    def T_heatPort(self) -> Expr:
+    def temperature(self) -> Expr:
         """Temperature of the device [K]."""
         return self.heatPort.T if self.useTemperatureDependency else self.T
 
@@ -29,6 +31,14 @@ class PartialTemperatureDependent(ConditionalHeatPort, partial=True):
         yield from super().equations()
         if self.useTemperatureDependency and not self.useHeatPort:
             yield self.heatPort.Q_flow == -self.LossPower
+
+
+class Junction(NamedTuple):
+    """Forward voltage `v` of a junction, current `i` of its diode, capacitance `c`; their names differ by polarity."""
+
+    v: Expr
+    i: Expr
+    c: Expr
 
 
 class PartialBipolar(PartialTemperatureDependent, partial=True):
@@ -75,20 +85,16 @@ class PartialBipolar(PartialTemperatureDependent, partial=True):
     k_q: Parameter = Parameter(BOLTZMANN / CHARGE, unit="V/K", doc="Boltzmann constant over the elementary charge")
     vcs: Variable = Variable(unit="V", doc="voltage from collector to substrate")
     vt_t: Variable = Variable(unit="V", doc="voltage equivalent of the device's temperature")
-    ibc: Variable = Variable(unit="A", nominal=1e-3, doc="current of the base-collector diode")
-    ibe: Variable = Variable(unit="A", nominal=1e-3, doc="current of the base-emitter diode")
-    cbc: Variable = Variable(unit="F", nominal=1e-12, doc="capacitance between base and collector")
-    cbe: Variable = Variable(unit="F", nominal=1e-12, doc="capacitance between base and emitter")
     qbk: Variable = Variable(unit="1", doc="inverse of the relative majority carrier charge")
     iS: Variable = Variable(unit="A", nominal=1e-6, doc="current of the substrate")
 
-    def junctions(self, vbc: Expr, vbe: Expr) -> Equations:
-        """Equations for the forward voltages `vbc` and `vbe` of the junctions."""
-        s = self.polarity
-        ratio = self.T_heatPort / self.Tnom
+    def junctions(self, collector: Junction, emitter: Junction) -> Equations:
+        """Equations of the junctions of the base with the collector and the emitter."""
+        s, vbc, vbe, ibc, ibe = self.polarity, collector.v, emitter.v, collector.i, emitter.i
+        ratio = self.temperature / self.Tnom
         saturation, beta_r, beta_f, thermal = self.Is * 1.0, self.Br * 1.0, self.Bf * 1.0, self.Vt * 1.0
         if self.useTemperatureDependency:
-            thermal = self.k_q * self.T_heatPort
+            thermal = self.k_q * self.temperature
             growth = exlin2((ratio - 1) * self.EG / thermal, self.EMin, self.EMax)
             saturation = self.Is * ratio**self.XTI * growth
             beta_r, beta_f = self.Br * ratio**self.XTB, self.Bf * ratio**self.XTB
@@ -97,24 +103,22 @@ class PartialBipolar(PartialTemperatureDependent, partial=True):
         yield self.vt_t == thermal
         yield self.vcs == self.C.v - (self.S.v if self.useSubstrate else 0.0)
         yield self.qbk == 1 - vbc * self.Vak
-        yield self.ibc == saturation * (exp_c - 1) + vbc * self.Gbc
-        yield self.ibe == saturation * (exp_e - 1) + vbe * self.Gbe
+        yield ibc == saturation * (exp_c - 1) + vbc * self.Gbc
+        yield ibe == saturation * (exp_e - 1) + vbe * self.Gbe
         cbc = self.Taur * saturation / over_c * exp_c + self.Cjc * powlin(vbc / self.Phic, self.Mc)
         cbe = self.Tauf * saturation / over_e * exp_e + self.Cje * powlin(vbe / self.Phie, self.Me)
-        yield self.cbc == cbc
-        yield self.cbe == cbe
+        yield collector.c == cbc
+        yield emitter.c == cbe
         yield self.iS == -self.Ccs * der(self.vcs)
         # with the expressions in full: where all times and capacitances are zero, they take the derivatives out
         charge_c, charge_e = cbc * der(vbc), cbe * der(vbe)
-        transport = (self.ibe - self.ibc) * self.qbk
-        yield self.C.i == s * (transport - self.ibc / beta_r - charge_c) - self.iS
-        yield self.B.i == s * (self.ibe / beta_f + self.ibc / beta_r + charge_c + charge_e)
+        transport = (ibe - ibc) * self.qbk
+        yield self.C.i == s * (transport - ibc / beta_r - charge_c) - self.iS
+        yield self.B.i == s * (ibe / beta_f + ibc / beta_r + charge_c + charge_e)
         yield self.C.i + self.B.i + self.E.i + self.iS == 0
         if self.useSubstrate:
             yield self.S.i == self.iS
-        yield self.LossPower == (
-            vbc * self.ibc / beta_r + vbe * self.ibe / beta_f + s * transport * (self.C.v - self.E.v)
-        )
+        yield self.LossPower == vbc * ibc / beta_r + vbe * ibe / beta_f + s * transport * (self.C.v - self.E.v)
 
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()
@@ -139,6 +143,10 @@ class NPN(PartialBipolar):
     Source: Modelica.Electrical.Analog.Semiconductors.NPN.
     """
 
+    ibc: Variable = Variable(unit="A", nominal=1e-3, doc="current of the base-collector diode")
+    ibe: Variable = Variable(unit="A", nominal=1e-3, doc="current of the base-emitter diode")
+    cbc: Variable = Variable(unit="F", nominal=1e-12, doc="capacitance between base and collector")
+    cbe: Variable = Variable(unit="F", nominal=1e-12, doc="capacitance between base and emitter")
     vbc: Variable = Variable(unit="V", doc="voltage from base to collector")
     vbe: Variable = Variable(unit="V", doc="voltage from base to emitter")
 
@@ -146,7 +154,8 @@ class NPN(PartialBipolar):
         yield from super().equations()
         yield self.vbc == self.B.v - self.C.v
         yield self.vbe == self.B.v - self.E.v
-        yield from self.junctions(self.vbc, self.vbe)
+        collector, emitter = Junction(self.vbc, self.ibc, self.cbc), Junction(self.vbe, self.ibe, self.cbe)
+        yield from self.junctions(collector, emitter)
 
 
 class PNP(PartialBipolar):
@@ -166,6 +175,10 @@ class PNP(PartialBipolar):
     """
 
     polarity: int = -1
+    icb: Variable = Variable(unit="A", nominal=1e-3, doc="current of the collector-base diode")
+    ieb: Variable = Variable(unit="A", nominal=1e-3, doc="current of the emitter-base diode")
+    ccb: Variable = Variable(unit="F", nominal=1e-12, doc="capacitance between collector and base")
+    ceb: Variable = Variable(unit="F", nominal=1e-12, doc="capacitance between emitter and base")
     vcb: Variable = Variable(unit="V", doc="voltage from collector to base")
     veb: Variable = Variable(unit="V", doc="voltage from emitter to base")
 
@@ -173,7 +186,8 @@ class PNP(PartialBipolar):
         yield from super().equations()
         yield self.vcb == self.C.v - self.B.v
         yield self.veb == self.E.v - self.B.v
-        yield from self.junctions(self.vcb, self.veb)
+        collector, emitter = Junction(self.vcb, self.icb, self.ccb), Junction(self.veb, self.ieb, self.ceb)
+        yield from self.junctions(collector, emitter)
 
 
 class HeatingNPN(NPN):
@@ -240,9 +254,9 @@ class PartialMOS(PartialTemperatureDependent, partial=True):
         """Equations of the channel; `s` is 1 for an n-channel and -1 for a p-channel: all voltages are mirrored."""
         beta, threshold, k2 = self.Beta * 1.0, self.Vt * 1.0, self.K2 * 1.0
         if self.useTemperatureDependency:
-            beta = self.Beta * (self.T_heatPort / self.Tnom) ** -1.5
-            threshold = self.Vt * (1 + (self.T_heatPort - self.Tnom) * self.kvt)
-            k2 = self.K2 * (1 + (self.T_heatPort - self.Tnom) * self.kk2)
+            beta = self.Beta * (self.temperature / self.Tnom) ** -1.5
+            threshold = self.Vt * (1 + (self.temperature - self.Tnom) * self.kvt)
+            k2 = self.K2 * (1 + (self.temperature - self.Tnom) * self.kk2)
         d, g, source, bulk = s * self.D.v, s * self.G.v, s * self.S.v, s * self.B.v
         gain = beta * (self.W + self.dW) / (self.L + self.dL)
         reverse = d < source  # everywhere the same side where both are equal: the slope there is that of `RDS`

@@ -39,12 +39,14 @@ class Revolute(PartialTwoFrames):
     w: Variable = Variable(unit="rad/s", state_select=structural("stateSelect"), doc="angular velocity, dphi/dt")
     a: Variable = Variable(unit="rad/s2", doc="angular acceleration, dw/dt")
     tau: Variable = Variable(unit="N*m", doc="driving torque about the axis")
+    angle: Variable = Variable(unit="rad", doc="phi")
 
     def equations(self) -> Equations:
         yield from super().equations()
         a, b = self.frame_a, self.frame_b
         e = unit_vector(self.n)
         yield branch(a.R, b.R)
+        yield self.angle == self.phi
         yield self.w == der(self.phi)
         yield self.a == der(self.w)
         yield b.r_0 == a.r_0

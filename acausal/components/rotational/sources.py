@@ -63,10 +63,12 @@ class ConstantTorque(PartialOneFlangeAndSupport):
     """
 
     tau_constant: Parameter = Parameter(1.0, unit="N*m", doc="driving torque")
+    tau: Variable = Variable(unit="N*m", doc="driving torque, -flange.tau")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.flange.tau == -self.tau_constant
+        yield self.tau == -self.flange.tau
+        yield self.tau == self.tau_constant
 
 
 class TorqueStep(PartialOneFlangeAndSupport):
@@ -83,10 +85,12 @@ class TorqueStep(PartialOneFlangeAndSupport):
     stepTorque: Parameter = Parameter(1.0, unit="N*m", doc="height of the step")
     offsetTorque: Parameter = Parameter(0.0, unit="N*m", doc="torque before the step")
     startTime: Parameter = Parameter(0.0, unit="s", doc="time of the step")
+    tau: Variable = Variable(unit="N*m", doc="driving torque, -flange.tau")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.flange.tau == -self.offsetTorque - where(ac.time < self.startTime, 0.0, self.stepTorque)
+        yield self.tau == -self.flange.tau
+        yield self.tau == self.offsetTorque + where(ac.time < self.startTime, 0.0, self.stepTorque)
 
 
 class PartialSpeedDependent(PartialOneFlangeAndSupport, partial=True):
@@ -244,16 +248,20 @@ class Position(PartialOneFlangeAndSupport):
     af: Parameter = Parameter(1.3617, unit="1", doc="coefficient of s of the Bessel filter")
     bf: Parameter = Parameter(0.6180, unit="1", doc="coefficient of s^2 of the Bessel filter")
     phi_ref: Input = Input(unit="rad", doc="reference angle")
-    w: Variable = Variable(unit="rad/s", start=0.0, doc="angular velocity of the flange relative to the support")
+    w: Variable = Variable(unit="rad/s", start=0.0, doc="angular velocity against the support; 0 with exact")
+    a: Variable = Variable(unit="rad/s2", doc="its acceleration; 0 with exact")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.w == der(self.phi)
         if self.exact:
             yield self.phi == self.phi_ref
+            yield self.w == 0  # as in the source: the reference is not differentiated for them, it may jump
+            yield self.a == 0
         else:
             w_crit = 2 * PI * self.f_crit
-            yield der(self.w) == ((self.phi_ref - self.phi) * w_crit - self.af * self.w) * (w_crit / self.bf)
+            yield self.w == der(self.phi)
+            yield self.a == der(self.w)
+            yield self.a == ((self.phi_ref - self.phi) * w_crit - self.af * self.w) * (w_crit / self.bf)
 
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()
@@ -277,14 +285,17 @@ class Speed(PartialOneFlangeAndSupport):
     w_ref: Input = Input(unit="rad/s", doc="reference angular velocity")
     phi: Variable = Variable(unit="rad", start=0.0, doc="angle of the flange relative to the support")
     w: Variable = Variable(unit="rad/s", start=0.0, doc="angular velocity of the flange relative to the support")
+    a: Variable = Variable(unit="rad/s2", doc="its acceleration; 0 with exact")
 
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.w == der(self.phi)
         if self.exact:
             yield self.w == self.w_ref
+            yield self.a == 0  # as in the source: the reference is not differentiated for it, it may jump
         else:
-            yield der(self.w) == (self.w_ref - self.w) * 2 * PI * self.f_crit
+            yield self.a == der(self.w)
+            yield self.a == (self.w_ref - self.w) * 2 * PI * self.f_crit
 
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()

@@ -56,6 +56,7 @@ from .sources import ForceStep as ForceStep
 from .sources import InverseSpeedDependentForce as InverseSpeedDependentForce
 from .sources import LinearSpeedDependentForce as LinearSpeedDependentForce
 from .sources import Move as Move
+from .sources import PartialForce as PartialForce
 from .sources import PartialSpeedDependent as PartialSpeedDependent
 from .sources import Position as Position
 from .sources import QuadraticSpeedDependentForce as QuadraticSpeedDependentForce

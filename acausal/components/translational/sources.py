@@ -51,8 +51,23 @@ class Force2(PartialTwoFlanges):
         yield self.flange_b.f == -self.f
 
 
-class ConstantForce(PartialOneFlangeAndSupport):
-    """Constant external force, ``flange.f = -f_constant``.
+class PartialForce(PartialOneFlangeAndSupport, partial=True):
+    """Force `f` at the flange, ``f = flange.f``: a force that drives forward is negative.
+
+    (The torque `tau` of rotational sources has the other sign, in Modelica too.)
+
+    Source: Modelica.Mechanics.Translational.Interfaces.PartialForce.
+    """
+
+    f: Variable = Variable(unit="N", doc="force of the flange on the component, flange.f")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.f == self.flange.f
+
+
+class ConstantForce(PartialForce):
+    """Constant external force, ``f = flange.f = -f_constant``.
 
     >>> model = assemble("drive.flange - mass.flange_a", drive=ConstantForce(f_constant=4.0),
     ...                  mass=Mass(m=2.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True)))
@@ -66,11 +81,11 @@ class ConstantForce(PartialOneFlangeAndSupport):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.flange.f == -self.f_constant
+        yield self.f == -self.f_constant
 
 
-class ForceStep(PartialOneFlangeAndSupport):
-    """Force step, ``flange.f = -offsetForce``, from `startTime` on ``-(offsetForce + stepForce)``.
+class ForceStep(PartialForce):
+    """Force step, ``f = flange.f = -offsetForce``, from `startTime` on ``-(offsetForce + stepForce)``.
 
     >>> model = assemble("drive.flange - mass.flange_a", drive=ForceStep(stepForce=4.0, startTime=0.5),
     ...                  mass=Mass(m=2.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True)))
@@ -86,27 +101,25 @@ class ForceStep(PartialOneFlangeAndSupport):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.flange.f == -self.offsetForce - where(ac.time < self.startTime, 0.0, self.stepForce)
+        yield self.f == -self.offsetForce - where(ac.time < self.startTime, 0.0, self.stepForce)
 
 
-class PartialSpeedDependent(PartialOneFlangeAndSupport, partial=True):
-    """Driving force `f` that depends on the speed `v` of the flange against the support.
+class PartialSpeedDependent(PartialForce, partial=True):
+    """Force that depends on the speed `v` of the flange against the support; ``f = flange.f``, minus what drives.
 
     Source: Modelica.Mechanics.Translational.Sources.LinearSpeedDependentForce.
     """
 
     f_nominal: Parameter = Parameter(1.0, unit="N", doc="nominal force; negative: it brakes")
     v: Variable = Variable(unit="m/s", doc="velocity of the flange relative to the support")
-    f: Variable = Variable(unit="N", doc="driving force")
 
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.v == der(self.s)
-        yield self.flange.f == -self.f
 
 
 class LinearSpeedDependentForce(PartialSpeedDependent):
-    """Force in proportion to the speed, ``f = f_nominal |v/v_nominal|``; without ForceDirection with its sign.
+    """Force in proportion to the speed, ``f = -f_nominal |v/v_nominal|``; without ForceDirection with its sign.
 
     >>> model = assemble("brake.flange - mass.flange_a",
     ...                  brake=LinearSpeedDependentForce(f_nominal=-8.0, v_nominal=2.0, ForceDirection=False),
@@ -123,11 +136,11 @@ class LinearSpeedDependentForce(PartialSpeedDependent):
     def equations(self) -> Equations:
         yield from super().equations()
         share = self.v / self.v_nominal
-        yield self.f == self.f_nominal * (ac.abs(share) if self.ForceDirection else share)
+        yield self.f == -self.f_nominal * (ac.abs(share) if self.ForceDirection else share)
 
 
 class QuadraticSpeedDependentForce(PartialSpeedDependent):
-    """Force with the square of the speed, ``f = f_nominal (v/v_nominal)^2``; without ForceDirection signed.
+    """Force with the square of the speed, ``f = -f_nominal (v/v_nominal)^2``; without ForceDirection signed.
 
     >>> model = assemble("fan.flange - mass.flange_a",
     ...                  fan=QuadraticSpeedDependentForce(f_nominal=-8.0, v_nominal=2.0, ForceDirection=False),
@@ -144,11 +157,11 @@ class QuadraticSpeedDependentForce(PartialSpeedDependent):
     def equations(self) -> Equations:
         yield from super().equations()
         share = self.v / self.v_nominal
-        yield self.f == self.f_nominal * (share**2 if self.ForceDirection else share * ac.noevent(ac.abs(share)))
+        yield self.f == -self.f_nominal * (share**2 if self.ForceDirection else share * ac.noevent(ac.abs(share)))
 
 
 class InverseSpeedDependentForce(PartialSpeedDependent):
-    """Force of constant power, ``f = f_nominal v_nominal/|v|``, limited at `v0`; without ForceDirection signed.
+    """Force of constant power, ``f = -f_nominal v_nominal/|v|``, limited at `v0`; without ForceDirection signed.
 
     >>> model = assemble("drive.flange - mass.flange_a", drive=InverseSpeedDependentForce(f_nominal=4.0),
     ...                  mass=Mass(m=2.0, s=start(0.0, fixed=True), v=start(1.0, fixed=True)))
@@ -166,11 +179,11 @@ class InverseSpeedDependentForce(PartialSpeedDependent):
         yield from super().equations()
         speed = ac.max(ac.abs(self.v), self.v0)
         direction = 1.0 if self.ForceDirection else ac.clip(self.v / self.v0, -1.0, 1.0)
-        yield self.f == self.f_nominal * self.v_nominal / speed * direction
+        yield self.f == -self.f_nominal * self.v_nominal / speed * direction
 
 
 class SignForce(PartialSpeedDependent):
-    """Force with the sign of the speed, ``f = f_nominal sign(v)``, made continuous around ``|v| < v0`` by `reg`.
+    """Force with the sign of the speed, ``f = -f_nominal sign(v)``, made continuous around ``|v| < v0`` by `reg`.
 
     >>> model = assemble("brake.flange - mass.flange_a", brake=SignForce(f_nominal=-4.0, v0=0.1),
     ...                  mass=Mass(m=2.0, s=start(0.0, fixed=True), v=start(3.0, fixed=True)))
@@ -185,10 +198,10 @@ class SignForce(PartialSpeedDependent):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.f == self.f_nominal * regularized_sign(self.v / self.v0, self.reg, "SignForce")
+        yield self.f == -self.f_nominal * regularized_sign(self.v / self.v0, self.reg, "SignForce")
 
 
-class EddyCurrentForce(thermal.PartialConditionalHeatPort, PartialOneFlangeAndSupport):
+class EddyCurrentForce(thermal.PartialConditionalHeatPort, PartialForce):
     """Eddy current brake, ``f = 2 f_nominal excitation^2 x/(1 + x^2)`` with ``x = v/v_n``, which heats itself.
 
     ``v_n = v_nominal (1 + alpha20/(1 + alpha20 (TRef - 293.15 K)) (T - TRef))``; it always brakes.
@@ -212,7 +225,6 @@ class EddyCurrentForce(thermal.PartialConditionalHeatPort, PartialOneFlangeAndSu
     T20: Parameter = Parameter(293.15, unit="K", doc="20 degC")
     constantExcitation: Parameter = Parameter(1.0, unit="1", doc="excitation without useExcitationInput")
     excitation: Input = Input(unit="1", doc="excitation with useExcitationInput")
-    f: Variable = Variable(unit="N", doc="force of the flange, against the motion")
     v: Variable = Variable(unit="m/s", doc="velocity of the flange relative to the support")
 
     def equations(self) -> Equations:
@@ -222,7 +234,6 @@ class EddyCurrentForce(thermal.PartialConditionalHeatPort, PartialOneFlangeAndSu
         temperature = self.heatPort.T if self.useHeatPort else self.T
         slope = self.alpha20 / (1 + self.alpha20 * (self.TRef - self.T20))
         x = self.v / (self.v_nominal * (1 + slope * (temperature - self.TRef)))
-        yield self.f == self.flange.f
         yield self.v == der(self.s)
         yield self.f == 2 * self.f_nominal * self.excitation**2 * x / (1 + x * x)
         yield self.lossPower == self.f * self.v
@@ -244,16 +255,20 @@ class Position(PartialOneFlangeAndSupport):
     af: Parameter = Parameter(1.3617, unit="1", doc="coefficient of s of the Bessel filter")
     bf: Parameter = Parameter(0.6180, unit="1", doc="coefficient of s^2 of the Bessel filter")
     s_ref: Input = Input(unit="m", doc="reference position")
-    v: Variable = Variable(unit="m/s", start=0.0, doc="velocity of the flange relative to the support")
+    v: Variable = Variable(unit="m/s", start=0.0, doc="velocity against the support; 0 with exact")
+    a: Variable = Variable(unit="m/s2", doc="its acceleration; 0 with exact")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.v == der(self.s)
         if self.exact:
             yield self.s == self.s_ref
+            yield self.v == 0  # as in the source: the reference is not differentiated for them, it may jump
+            yield self.a == 0
         else:
             w_crit = 2 * PI * self.f_crit
-            yield der(self.v) == ((self.s_ref - self.s) * w_crit - self.af * self.v) * (w_crit / self.bf)
+            yield self.v == der(self.s)
+            yield self.a == der(self.v)
+            yield self.a == ((self.s_ref - self.s) * w_crit - self.af * self.v) * (w_crit / self.bf)
 
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()
@@ -277,14 +292,17 @@ class Speed(PartialOneFlangeAndSupport):
     v_ref: Input = Input(unit="m/s", doc="reference velocity")
     s: Variable = Variable(unit="m", start=0.0, doc="position of the flange relative to the support")
     v: Variable = Variable(unit="m/s", start=0.0, doc="velocity of the flange relative to the support")
+    a: Variable = Variable(unit="m/s2", doc="its acceleration; 0 with exact")
 
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.v == der(self.s)
         if self.exact:
             yield self.v == self.v_ref
+            yield self.a == 0  # as in the source: the reference is not differentiated for it, it may jump
         else:
-            yield der(self.v) == (self.v_ref - self.v) * 2 * PI * self.f_crit
+            yield self.a == der(self.v)
+            yield self.a == (self.v_ref - self.v) * 2 * PI * self.f_crit
 
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()
@@ -292,7 +310,7 @@ class Speed(PartialOneFlangeAndSupport):
             yield self.v == self.v_ref
 
 
-class ConstantSpeed(PartialOneFlangeAndSupport):
+class ConstantSpeed(PartialForce):
     """Constant velocity, whatever the force: ``ds/dt = v_fixed``.
 
     >>> model = assemble("lead.flange - damper.flange_a", "damper.flange_b - wall.flange", damper=Damper(d=3.0),

@@ -7,10 +7,11 @@ from acausal import Component, Equations, Input, Parameter, Variable, der
 
 from ..friction import regularized_sign
 from ..rotational.interfaces import Flange as ShaftFlange
-from .interfaces import Flange, PartialOneFlangeAndSupport
+from .interfaces import Flange
+from .sources import PartialForce
 
 
-class RollingResistance(PartialOneFlangeAndSupport):
+class RollingResistance(PartialForce):
     """Resistance of a rolling wheel, ``f = cr fWeight cos(atan(inclination)) sign(v)``, made continuous by `reg`.
 
     >>> model = assemble("wheel.flange - mass.flange_a", wheel=RollingResistance(fWeight=100.0, CrConstant=0.02),
@@ -31,7 +32,7 @@ class RollingResistance(PartialOneFlangeAndSupport):
     cr: Input = Input(unit="1", doc="rolling resistance coefficient with useCrInput")
     inclination: Input = Input(unit="1", doc="tan(angle) of the road with useInclinationInput")
     v: Variable = Variable(unit="m/s", doc="velocity of the flange relative to the support")
-    f: Variable = Variable(unit="N", doc="force of the flange, against the motion")
+    f_nominal: Variable = Variable(unit="N", doc="minus the largest force")
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -39,10 +40,9 @@ class RollingResistance(PartialOneFlangeAndSupport):
             yield self.cr == self.CrConstant
         if not self.useInclinationInput:
             yield self.inclination == self.inclinationConstant
-        most = self.cr * self.fWeight * ac.cos(ac.atan(self.inclination))
         yield self.v == der(self.s)
-        yield self.f == self.flange.f
-        yield self.f == most * regularized_sign(self.v / self.v0, self.reg, "RollingResistance")
+        yield self.f_nominal == -self.cr * self.fWeight * ac.cos(ac.atan(self.inclination))
+        yield self.f == -self.f_nominal * regularized_sign(self.v / self.v0, self.reg, "RollingResistance")
 
 
 class Vehicle(Component):
