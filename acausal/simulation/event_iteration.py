@@ -111,6 +111,7 @@ class EventIteration(ModeSearch):
         self.warned: set[tuple[int, int]] = set()
         self.jumped: set[int] = set()
         self.followed: set[int] = set()
+        self.shared: set[bytes] = set()
         self.clocks: list[Clock] = []
         self.moves: list[Move] = []
         self.noise: Floats = np.zeros(hybrid.roots.count)
@@ -316,7 +317,35 @@ class EventIteration(ModeSearch):
             z = self._moved(t, z, p, ids, values, move.free)
         move.z_after = z
         self._tell_followers(t, z, p, point, ids, values)
+        if low.n_g and ids.tobytes() not in self.shared:
+            self.shared.add(ids.tobytes())
+            self._tell_shared(t, z, p, point, ids, values)
         return z
+
+    def _tell_shared(self, t: float, z: Floats, p: Floats, before: Point, ids: Ints, values: Floats) -> None:
+        """Warn of states that jump with `reinit` by the least change, each of which could keep its value.
+
+        So it is in a mechanism whose constraints leave more freedom than `reinit` takes.
+        """
+        low = self.problem.lowered
+        states = low.schedule.states
+        old = before.v[states]
+        size = np.maximum(np.maximum(np.abs(old), np.abs(z[: low.n_x])), low.x_nominal)
+        open_: list[int] = []
+        for v in np.setdiff1d(states[np.abs(z[: low.n_x] - old) > JUMPS * size], ids).tolist():
+            try:
+                self._moved(t, z, p, np.append(ids, v), np.append(values, before.v[v]), self._may_follow(ids))
+            except SimulationError:  # it has to follow
+                continue
+            open_.append(v)
+        if open_:
+            new, some = (", ".join(f"`{low.schedule.reduced.name(int(v))}`" for v in of[:5]) for of in (ids, open_))
+            first = low.schedule.reduced.name(open_[0])
+            self.warn(
+                f"At t = {t:.9g} s `reinit` of {new} does not say how {some} jump with it: the constraints that bind "
+                "them leave each of them free to keep its value, and they have been changed as little as possible.\n"
+                f"Try: name more of them, as in `reinit({first}, pre({first}))` for one that keeps its value."
+            )
 
     def _tell_followers(self, t: float, z: Floats, p: Floats, before: Point, ids: Ints, values: Floats) -> None:
         """Warn of what jumps with `reinit` although it could keep its value, as velocities with relative ones do.

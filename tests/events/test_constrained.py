@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from functools import cache
 from typing import Any
 
@@ -11,6 +12,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 import acausal as ac
+from acausal import Component, Equations, Variable, Vector, der, dot, pre, reinit, vector, when
 from acausal.components import rotational
 from acausal.components.examples import assemble, start
 
@@ -77,3 +79,35 @@ def test_a_new_speed_passes_through_a_gear(engine: Any) -> None:
     assert_allclose(solution["train.load.w"], [1.0, -2.0, -2.0], rtol=1e-9)
     assert_allclose(solution["train.motor.w"], [3.0, -6.0, -6.0], rtol=1e-9)
     assert_allclose(solution["train.motor.phi"], [1.2, 1.5 - 0.6, 1.5 - 3.0], rtol=1e-8)
+
+
+class Spherical(Component):
+    """A pendulum in space, index 3, that is struck: its constraint leaves two speeds free."""
+
+    both: bool = False
+    r: Vector = Vector(Variable(unit="m"), (0.6, 0.64, -0.48))
+    v: Vector = Vector(Variable(unit="m/s"), (0.3, 0.0, None))
+    tension: Variable = Variable(unit="1/s2")
+
+    def equations(self) -> Equations:
+        yield der(self.r) == self.v
+        yield der(self.v) == self.r * -self.tension + vector(0.0, 0.0, -9.81)
+        yield dot(self.r, self.r) == 1.0
+        second = [reinit(self.v[1], pre(self.v[1]))] if self.both else []
+        yield when(ac.time > 0.1, reinit(self.v[0], -pre(self.v[0])), *second)
+
+
+def test_what_shares_a_jump_is_told() -> None:
+    text = r"(?s)At t = 0\.1 s `reinit` of `v\[1\]` does not say how `v\[2\]`, `v\[3\]` jump.*reinit\(v\[2\], pre"
+    with pytest.warns(UserWarning, match=text):
+        ac.compile(Spherical()).simulate(0.2)
+
+
+def test_what_has_to_follow_is_not_told() -> None:
+    t = [0.1 - 1e-9, 0.1]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ac.compile(Wall()).simulate(1.0)
+        solution = ac.compile(Spherical(both=True)).simulate(0.2, rtol=1e-9, saveat=t)
+    assert_allclose(solution["v[1]"][1], -solution["v[1]"][0], atol=1e-6)
+    assert_allclose(solution["v[2]"][1], solution["v[2]"][0], atol=1e-6)
