@@ -11,6 +11,7 @@ import numpy as np
 
 from ..nonfinite import block_equations
 from ..passes.combine import scaled
+from .divisors import vanishing_divisor
 from .lowered import Lowered
 
 LARGEST = 500
@@ -71,6 +72,8 @@ def explain(
         )
     if result in ("dt_min_reached", "singular"):
         lines += lost or _singular(system, lowered, t, x, w, p)
+    if result in ("dt_min_reached", "max_steps_reached"):
+        lines += _divided(system, lowered, p, t, t1)
     if result == "max_steps_reached":
         lines.append("Raise `max_steps`, loosen `rtol`, or look for chattering in this variable.")
     return "\n".join([*lines, counts])
@@ -132,6 +135,14 @@ def _equation(system: Any, lowered: Any, t: float, x: Any, w: Any, p: Any) -> li
         p = lowered.at(t, p)
     text = diagnose(t, x, w, p) if diagnose is not None else None
     return [text] if text else []
+
+
+def _divided(system: Any, lowered: Any, p: Any, t: float, t1: float) -> list[str]:
+    """What is divided by that vanishes."""
+    if not hasattr(system, "stages"):
+        return []
+    parameters = np.asarray(lowered.at(t, p) if isinstance(p, tuple) else p, float)
+    return vanishing_divisor(system.stages.index, parameters, t, t1)
 
 
 def _fastest(system: Any, x: np.ndarray, dx: np.ndarray, nominal: np.ndarray) -> list[str]:

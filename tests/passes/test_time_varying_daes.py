@@ -13,6 +13,7 @@ import sympy as sp
 
 import acausal as ac
 from acausal import Component, Equations, Variable, der
+from acausal.errors import SimulationError
 
 T = sp.Symbol("t")
 TIMES = (0.0, 0.7, 1.5, 2.3, 3.2, 4.0)
@@ -115,3 +116,10 @@ def test_the_chosen_solution(seed: int) -> None:
 def test_many_chosen_solutions() -> None:
     """Those that fail are errors where a factor, which index reduction divides by, passes zero."""
     assert sum(solved(seed) for seed in range(60) if seed not in (1, 3, 6, 9)) >= 50
+
+
+def test_a_factor_that_vanishes_is_named() -> None:
+    """The system is regular there, but not what index reduction makes of it."""
+    text = r"divides by `\(-2\)\*time\*cos\(2\*time\) \+ 1`, which is zero at t = 2\.458"
+    with pytest.raises(SimulationError, match=text):
+        ac.compile(draw(17).model()).simulate(4.0, saveat=TIMES, rtol=1e-8, max_steps=5_000)
