@@ -10,15 +10,17 @@ from acausal.components.examples import assemble
 
 def heating_npn_norgate() -> Component:
     """Electrical.Analog.Examples.HeatingNPN_NORGate."""
-    return _heating_norgate(electrical.NPN, 6.0, "V.p - RI.n", "V.n - Gnd.p")
+    return norgate(electrical.NPN, 6.0, "V.p - RI.n", "V.n - Gnd.p")
 
 
 def heating_pnp_norgate() -> Component:
     """Electrical.Analog.Examples.HeatingPNP_NORGate."""
-    return _heating_norgate(electrical.PNP, -6.0, "V.n - RI.n", "V.p - Gnd.p")
+    return norgate(electrical.PNP, -6.0, "V.n - RI.n", "V.p - Gnd.p")
 
 
-def _heating_norgate(kind: type[PartialBipolar], inputs: float, *supply: str) -> Component:
+def norgate(kind: type[PartialBipolar], inputs: float, *supply: str) -> Component:
+    """The gate of transistors of one kind, the voltage of its inputs, and how it is supplied."""
+
     def transistor() -> PartialBipolar:
         return kind(
             Bf=100.0, Br=1.0, Is=1e-14, Vak=0.0, Tauf=0.0, Taur=0.0, Ccs=0.0, Cje=0.0, Cjc=0.0, Phie=1.0, Me=0.5,
