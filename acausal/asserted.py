@@ -53,8 +53,12 @@ def check_start(system: System, t0: float, x0: Any, w0: Any, p: Any) -> None:
     _refuse(found, t0, run.value, numbers)
 
 
-def check_run(solution: Solution) -> None:
+def check_run(solution: Solution, values: Callable[[Ints], Floats]) -> None:
     """Check the assertions at all points of a solution with concrete values.
+
+    Args:
+        solution: of one run.
+        values: of the variables with these numbers at the points of the solution, (n_t, n).
 
     Raises:
         SimulationError: one does not hold.
@@ -63,9 +67,9 @@ def check_run(solution: Solution) -> None:
     if not found or not len(solution.t):
         return
     ids = _variables(found)
-    values = np.asarray(solution.values_of(ids), float).T if len(ids) else np.zeros((0, len(solution.t)))
+    table = np.asarray(values(ids), float).T if len(ids) else np.zeros((0, len(solution.t)))
     p = np.asarray(solution.p[0] if isinstance(solution.p, tuple) else solution.p, float)
-    for text, level in _broken(found, np.asarray(solution.t, float), lambda at: values[np.searchsorted(ids, at)], p):
+    for text, level in _broken(found, np.asarray(solution.t, float), lambda at: table[np.searchsorted(ids, at)], p):
         if level == "error":
             raise SimulationError(text)
         warnings.warn(text, stacklevel=4)

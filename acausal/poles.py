@@ -7,18 +7,20 @@ equations on either side.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .errors import SimulationError
-from .language.template import Floats
+from .language.template import Floats, Ints
 from .passes.schedule import Group, Kernel
 from .symbolic.expr import ONE, Expr
 from .symbolic.traverse import evaluate, leaves
 
 if TYPE_CHECKING:
     from .simulation.solution import Solution
+    from .system import System
 
 SHOWN = 4
 """Equations that a message names."""
@@ -26,31 +28,43 @@ NOISE = 1e-9
 """Denominators below this fraction of their largest value are rounding."""
 
 
-def check_poles(solution: Solution) -> None:
+def check_poles(solution: Solution, values: Callable[[Ints], Floats]) -> None:
     """Check a solution with concrete values between its points, but for where an event lies between them.
+
+    Args:
+        solution: of one run.
+        values: of the variables with these numbers at the points of the solution, (n_t, n).
 
     Raises:
         SimulationError: a pole has been passed; names the time, what divides and the equations.
     """
-    schedule, t = solution.system.stages.schedule, np.asarray(solution.t, float)
-    if len(t) < 2:
+    t = np.asarray(solution.t, float)
+    found = _dividing(solution.system)
+    if len(t) < 2 or not found:
         return
     between = _quiet(solution, t)
-    for group in schedule.groups:
-        quotients = _quotients(group.kernel) if group.kernel.iterates else []
-        quotients = [q for q in quotients if _constant(q, group, schedule.reduced.flat.n_par)]
-        if not quotients:
-            continue
-        values = _values(solution, group)
+    for group, quotients in found:
+        leaf = _leaves(solution, values, group)
         for a, b in quotients:
             with np.errstate(all="ignore"):
-                above, below = (np.broadcast_to(v, (group.size, len(t))) for v in evaluate((a, b), values, np))
+                above, below = (np.broadcast_to(v, (group.size, len(t))) for v in evaluate((a, b), leaf, np))
                 size = np.abs(below)
                 passed = (below[:, :-1] * below[:, 1:] < 0.0) & (above[:, :-1] * above[:, 1:] > 0.0)
                 passed &= np.minimum(size[:, :-1], size[:, 1:]) > NOISE * size.max(axis=1, keepdims=True)
             row, k = np.unravel_index(int(np.argmax(passed & between)), passed.shape)
             if passed[row, k] and between[k]:
                 raise SimulationError(_text(solution, group, int(row), float(t[k]), float(t[k + 1]), b))
+
+
+def _dividing(system: System) -> list[tuple[Group, list[tuple[Expr, Expr]]]]:
+    """The blocks that have quotients which may have poles; found once for a system."""
+    if "dividing" not in system.cache:
+        schedule = system.stages.schedule
+        found = [(group, _quotients(group.kernel)) for group in schedule.groups if group.kernel.iterates]
+        n_par = schedule.reduced.flat.n_par
+        kept = [(group, [q for q in quotients if _constant(q, group, n_par)]) for group, quotients in found]
+        system.cache["dividing"] = [(group, quotients) for group, quotients in kept if quotients]
+    return system.cache["dividing"]
 
 
 def _quotients(kernel: Kernel) -> list[tuple[Expr, Expr]]:
@@ -87,10 +101,10 @@ def _constant(quotient: tuple[Expr, Expr], group: Group, n_par: int) -> bool:
     return bool((group.par_rows[:, columns] < n_par).all())
 
 
-def _values(solution: Solution, group: Group) -> Any:
+def _leaves(solution: Solution, values: Callable[[Ints], Floats], group: Group) -> Any:
     """Values of leaves, (blocks, points)."""
     ids, places = np.unique(group.var_rows, return_inverse=True)
-    table = np.asarray(solution.values_of(ids), float).T[places.reshape(group.var_rows.shape)]
+    table = np.asarray(values(ids), float).T[places.reshape(group.var_rows.shape)]
     p = np.asarray(solution.p[0] if isinstance(solution.p, tuple) else solution.p, float)
     t = np.asarray(solution.t, float)
 

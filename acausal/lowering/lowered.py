@@ -56,6 +56,12 @@ class Lowered:
         self.representative, self.sign = observed
         self.n_all = len(self.representative)
 
+    def expanded(self, values: Floats, ids: Any) -> Floats:
+        """Variables of the flat model by number, from values of the reduced one, (n_t, n_ids): (n_t, *shape of ids)."""
+        sign = self.sign[ids]
+        found = values[:, self.representative[ids]]
+        return np.where(sign == 0, 0.0, sign * found) if np.any(sign != 1) else found
+
     # ---- what is needed -------------------------------------------------------------------------------------------
     def closure(self, ids: Ints, *, residuals: bool) -> list[int]:
         """Groups needed for variables `ids` (and for the residuals of all iterating groups, if asked for)."""

@@ -49,9 +49,10 @@ def simulate(system: Any, t1: Any, *, engine: str = "auto", **options: Any) -> S
         raise SimulationError(f"There is no engine {engine!r}; there are {', '.join(map(repr, ENGINES))}.")
     solution = _solved(system, t1, engine, options)
     if options.get("throw", True) and is_concrete((solution.t, solution.x)):
-        check_run(solution)
-        check_bounds(solution, float(options.get("rtol") or 1e-6))
-        check_poles(solution)
+        values = solution.reader()
+        check_run(solution, values)
+        check_bounds(solution, values, float(options.get("rtol") or 1e-6))
+        check_poles(solution, values)
     return solution
 
 
@@ -282,8 +283,8 @@ def finish(
         z, t, slots, events, result = run.z[: run.saved], save[: run.saved], None, (), RESULTS[run.code]
         p_end = p
 
-    def observe(t: Any, z: Any, ids: Any = None) -> Any:
-        return model.observe(t, z, p, signals, slots, ids)
+    def observe(t: Any, z: Any) -> Any:
+        return model.observe(t, z, p, signals, slots)
 
     x, w = z[:, : low.n_x], z[:, low.n_x :]
     solution = Solution(system, t, x, w, p, stats=stats, result=result, events=events, observe=observe)

@@ -235,28 +235,19 @@ class NativeModel:
 
     # ---- what follows from the states -------------------------------------------------------------
     def observe(
-        self, t: Floats, z: Floats, p: Floats, signals: Sequence[Signal], slots: Floats | None = None, ids: Any = None
+        self, t: Floats, z: Floats, p: Floats, signals: Sequence[Signal], slots: Floats | None = None
     ) -> Floats:
-        """All variables of the flat model, or those numbered `ids`, (n_t, n).
-
-        `slots` (n_t, n_slots) are those of a run with events.
-        """
-        low = self.system.lowered
+        """All variables of the reduced model, (n_t, n_ids); `slots` (n_t, n_slots) are those of a run with events."""
         if slots is None:
-            values = self.library().observe(p, signals, t, z)
-        else:
-            values = np.empty((len(t), low.n_ids))
-            cuts = np.flatnonzero((slots[1:] != slots[:-1]).any(axis=1)) + 1
-            for a, b in zip([0, *cuts.tolist()], [*cuts.tolist(), len(t)], strict=True):
-                if b > a:
-                    at = p.copy()
-                    at[self.system.hybrid.slots] = slots[a]
-                    values[a:b] = self.library().observe(at, signals, t[a:b], z[a:b])
-        representative, sign = (a if ids is None else a[ids] for a in (low.representative, low.sign))
-        found = values[:, representative]
-        found[:, sign < 0] *= -1.0
-        found[:, sign == 0] = 0.0
-        return found
+            return self.library().observe(p, signals, t, z)
+        values = np.empty((len(t), self.system.lowered.n_ids))
+        cuts = np.flatnonzero((slots[1:] != slots[:-1]).any(axis=1)) + 1
+        for a, b in zip([0, *cuts.tolist()], [*cuts.tolist(), len(t)], strict=True):
+            if b > a:
+                at = p.copy()
+                at[self.system.hybrid.slots] = slots[a]
+                values[a:b] = self.library().observe(at, signals, t[a:b], z[a:b])
+        return values
 
 
 def _slope(signal: Signal, t: float) -> float:

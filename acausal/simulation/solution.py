@@ -13,7 +13,7 @@ import numpy as np
 from acausal.errors import SimulationError, UnknownNameError, nearest
 from acausal.lowering.lowered import Lowered as CompiledSystem
 
-from .cache import ById, cache_of
+from .cache import ById, cache_of, without_keeping
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -70,6 +70,7 @@ class Solution:
         self._observe = observe
         self.slots = slots
         self._all: Any = None
+        self._reduced: Any = None
         register()
 
     def tree_flatten(self) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
@@ -92,7 +93,7 @@ class Solution:
         made.t, made.x, made.w, made.p = t, x, w, p
         made.stats = {**dict(fixed), **numbers}
         made._observe = observe.thing
-        made._all = None
+        made._all = made._reduced = None
         return made
 
     # ------------------------------------------------------------------ values
@@ -124,11 +125,20 @@ class Solution:
         values = self._values(indices)
         return self._out(values if isinstance(sign, int) and sign == 1 else values * sign)
 
-    def values_of(self, ids: Any) -> Any:
-        """Values of the variables with these numbers in the vector of all variables, shape (n_t, n)."""
-        if self._observe is not None and self._all is None and not self._traced:
-            return self._observe(self.t, np.concatenate([self.x, self.w], axis=1), ids)
-        return self._values(ids)
+    def reader(self) -> Callable[[Any], Any]:
+        """A function that gives variables by their numbers in the vector of all, (n_t, n); concrete values only.
+
+        For checks: the model is evaluated once, and what is found is not kept in the solution.
+        """
+        if self._observe is None or self._reduced is not None:
+            return self._values
+        reduced = functools.cache(self._observed)
+        return lambda ids: self.system.lowered.expanded(reduced(), ids)
+
+    def _observed(self) -> Any:
+        """Variables of the reduced model, (n_t, n)."""
+        assert self._observe is not None
+        return self._observe(self.t, np.concatenate([self.x, self.w], axis=1))
 
     def _not_finite(self, key: Any, values: Any) -> str:
         """The first time at which a variable has no finite value, and the equation that this comes from."""
@@ -176,9 +186,9 @@ class Solution:
                 )
             return self._traced_values(indices)
         if self._observe is not None:
-            if self._all is None:
-                self._all = self._observe(self.t, np.concatenate([self.x, self.w], axis=1))
-            return self._all[:, indices]
+            if self._reduced is None:
+                self._reduced = self._observed()
+            return self.system.lowered.expanded(self._reduced, indices)
         import jax.numpy as jnp
 
         if self._all is None and self._size <= KEEP_ALL:
@@ -402,12 +412,12 @@ def _observe(
     cache = cache_of(lowered)
     if "observe" not in cache:
 
-        def values(indices: Any, t: Any, x: Any, w: Any, p: Any, slots: Any) -> Any:
+        def values(lowered: Any, indices: Any, t: Any, x: Any, w: Any, p: Any, slots: Any) -> Any:
             def one(at: Any) -> Any:
                 now = p if held is None else _with_slots(p, held, at[3])
                 return lowered.observe(at[0], at[1], at[2], now)[indices]
 
             return jax.lax.map(one, (t, x, w, slots))
 
-        cache["observe"] = jit(values)
+        cache["observe"] = jit(without_keeping(lowered, values))
     return cache["observe"](indices, t, x, w, p, slots)

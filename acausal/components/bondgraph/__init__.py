@@ -33,6 +33,7 @@ from .elements import MSe as MSe
 from .elements import MSf as MSf
 from .elements import OnePort as OnePort
 from .elements import PartialJunction as PartialJunction
+from .elements import PartialSource as PartialSource
 from .elements import R as R
 from .elements import Se as Se
 from .elements import Sf as Sf

@@ -228,7 +228,17 @@ class MI(OnePort):
         yield self.i * der(self.f) == self.e
 
 
-class Se(Component):
+class PartialSource(Component, partial=True):
+    """Element with one port, the half arrow of its bond pointing out of it.
+
+    Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 3.1.4.
+    """
+
+    _must_connect: ClassVar[tuple[str, ...]] = ("port",)
+    port: BondPort = BondPort()
+
+
+class Se(PartialSource):
     """Effort source, ``port.e = e``, half arrow pointing out; `f` is the flow out of it.
 
     >>> run(assemble("source.port - load.port", source=Se(e=6.0), load=R(R=2.0)))["source.f"][-1]
@@ -237,8 +247,6 @@ class Se(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 3.1.4.
     """
 
-    _must_connect: ClassVar[tuple[str, ...]] = ("port",)
-    port: BondPort = BondPort()
     e: Parameter = Parameter(1.0, doc="effort")
     f: Variable = Variable(doc="flow out of the source")
 
@@ -248,7 +256,7 @@ class Se(Component):
         yield self.f == -self.port.f
 
 
-class Sf(Component):
+class Sf(PartialSource):
     """Flow source, half arrow pointing out, ``port.f = -f``; `e` is the effort that meets it.
 
     >>> run(assemble("source.port - load.port", source=Sf(f=3.0), load=R(R=2.0)))["source.e"][-1]
@@ -257,8 +265,6 @@ class Sf(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 3.1.4.
     """
 
-    _must_connect: ClassVar[tuple[str, ...]] = ("port",)
-    port: BondPort = BondPort()
     f: Parameter = Parameter(1.0, doc="flow out of the source")
     e: Variable = Variable(doc="effort")
 
@@ -268,7 +274,7 @@ class Sf(Component):
         yield self.e == self.port.e
 
 
-class MSe(Component):
+class MSe(PartialSource):
     """Effort source whose effort is a signal, ``port.e = e``, half arrow pointing out.
 
     >>> model = assemble("ramp.y - source.e", "source.port - load.port", ramp=blocks.Slope(slope=6.0), source=MSe(),
@@ -279,8 +285,6 @@ class MSe(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 3.1.4, with a modulating signal.
     """
 
-    _must_connect: ClassVar[tuple[str, ...]] = ("port",)
-    port: BondPort = BondPort()
     e: Input = Input(doc="effort")
     f: Variable = Variable(doc="flow out of the source")
 
@@ -290,7 +294,7 @@ class MSe(Component):
         yield self.f == -self.port.f
 
 
-class MSf(Component):
+class MSf(PartialSource):
     """Flow source whose flow is a signal, half arrow pointing out, ``port.f = -f``.
 
     >>> model = assemble("ramp.y - source.f", "source.port - load.port", ramp=blocks.Slope(slope=3.0), source=MSf(),
@@ -301,8 +305,6 @@ class MSf(Component):
     Source: Karnopp, Margolis and Rosenberg, System Dynamics (2012), section 3.1.4, with a modulating signal.
     """
 
-    _must_connect: ClassVar[tuple[str, ...]] = ("port",)
-    port: BondPort = BondPort()
     f: Input = Input(doc="flow out of the source")
     e: Variable = Variable(doc="effort")
 
