@@ -24,6 +24,7 @@ from acausal.lowering.numeric import NumericRun, is_concrete
 
 from . import simulate as plain
 from .arguments import asks_for_steps, is_saveat
+from .cache import ById
 from .conditions import sides
 from .continuation import followed
 from .controller import ROUNDING
@@ -217,7 +218,8 @@ class _Stretches:
         slack, rest = _slack(self.iteration, before), jnp.asarray(stop - t)
         together = isinstance(self.model.method, Rodas5P)
         size, noise = jnp.asarray(self.iteration.sizes_of_roots), jnp.asarray(self.iteration.noise)
-        switch = Switch(jnp.asarray(slack), size, noise, rest, self.lowered, hybrid.roots, together, n_x)
+        held = ById(self.lowered, keep=False)
+        switch = Switch(jnp.asarray(slack), size, noise, rest, held, hybrid.roots, together, n_x)
         finder = _JustBehind(rtol=TIME, atol=NEAR_ZERO, flip=True)  # what switches by rounding is at an end of the step
         event = diffrax.Event(switch, finder) if hybrid.roots.count else None
         outcome, seconds, _ = plain.carry_out(
@@ -260,7 +262,7 @@ class _Stretches:
         """The same for a model without states."""
         hybrid, lowered = self.iteration.hybrid, self.lowered
         none = jnp.zeros(hybrid.roots.count)
-        switch = Switch(none, none, none, jnp.zeros(()), lowered, hybrid.roots, True, 0)
+        switch = Switch(none, none, none, jnp.zeros(()), ById(lowered, keep=False), hybrid.roots, True, 0)
         run = jax.jit(functools.partial(_look, switch))
 
         def look(begin: float, t: float, z: Floats, p: Floats) -> tuple[Floats, Floats]:

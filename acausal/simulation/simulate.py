@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import functools
+import inspect
 import time
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -16,7 +16,7 @@ from jax import Array
 
 from acausal.errors import SimulationError
 
-from .cache import cache_of
+from .cache import ById, cache_of, without_keeping
 from .continuation import follow_in_time, undetermined
 from .controller import ROUNDING, ErrorControl
 from .failure import explain
@@ -259,7 +259,7 @@ def _program(lowered: Lowered, settings: _Settings, solve: Any = None) -> tuple[
     key = (solve.__name__, structure, tuple(leaves), shapes)
     cache = cache_of(lowered)
     if key not in cache:
-        cache[key] = jax.jit(functools.partial(solve, lowered, static))
+        cache[key] = jax.jit(without_keeping(lowered, lambda low, *rest: solve(low, static, *rest)))
     return cache[key], dynamic, key
 
 
@@ -309,7 +309,7 @@ def _solve(
         solver, event = Watched(solver, switch), diffrax.Event(switch, event.root_finder)
     keep = _keeps_factors(settings.solver)
     saveat = diffrax.SaveAt(subs=[sub, diffrax.SubSaveAt(t1=True)], solver_state=keep)
-    solved = diffrax.diffeqsolve(
+    solved = inspect.unwrap(diffrax.diffeqsolve)(
         diffrax.ODETerm(field), solver, t0, t1, None if isinstance(controller, diffrax.StepTo) else dt, y0, args,
         saveat=saveat, stepsize_controller=controller,
         max_steps=settings.max_steps, adjoint=settings.adjoint, event=event, throw=settings.throw,
@@ -369,10 +369,11 @@ def _without_states(
 def _index_one(lowered: Lowered, solver: Rodas5P, x0: Array, w0: Array, p: Array) -> tuple[Any, Any, Array, Any]:
     """States and tearing variables as one vector z with a mass matrix."""
     n_x, n_w, n_g = dimensions(lowered)
+    held = ById(lowered, keep=False)  # JAX keeps what the functions below hold
 
     @jax.jit
     def field(t: Any, z: Array, p: Array) -> Array:
-        return jnp.concatenate(lowered.derivatives(t, z[:n_x], z[n_x:], p))
+        return jnp.concatenate(held.thing.derivatives(t, z[:n_x], z[n_x:], p))
 
     if n_w and solver.mass is None:
         mass = jnp.concatenate([jnp.ones(n_x), jnp.zeros(n_w)])
@@ -380,7 +381,7 @@ def _index_one(lowered: Lowered, solver: Rodas5P, x0: Array, w0: Array, p: Array
     if n_g and solver.project is None:
 
         def onto(t: Any, z: Array, p: Array) -> Array:
-            return jnp.concatenate(project(lowered, t, z[:n_x], z[n_x:], p))
+            return jnp.concatenate(project(held.thing, t, z[:n_x], z[n_x:], p))
 
         solver = eqx.tree_at(lambda s: s.project, solver, onto, is_leaf=lambda v: v is None)
     if lowered.conserved.count:
@@ -393,23 +394,25 @@ def _index_one(lowered: Lowered, solver: Rodas5P, x0: Array, w0: Array, p: Array
 def _states_only(lowered: Lowered, solver: Any, x0: Array, w0: Array, p: Array) -> tuple[Any, Any, Array, Any]:
     """The states alone; tearing variables are solved in the vector field, from a guess that goes along."""
     _, n_w, n_g = dimensions(lowered)
+    held = ById(lowered, keep=False)  # JAX keeps what the functions below hold
+
+    def algebraic(t: Any, x: Array, guess: Array, p: Any) -> Array:
+        return held.thing.solve_algebraic(t, x, guess, p) if n_w else guess
 
     @jax.jit
     def field(t: Any, x: Array, args: tuple[Any, Array]) -> Array:
         p, guess = args
-        w = lowered.solve_algebraic(t, x, guess, p) if n_w else guess
-        return lowered.derivatives(t, x, w, p)[0]
+        return held.thing.derivatives(t, x, algebraic(t, x, guess, p), p)[0]
 
     if n_g:
 
         def onto(t: Any, x: Array, args: tuple[Any, Array]) -> Array:
             p, guess = args
-            w = lowered.solve_algebraic(t, x, guess, p) if n_w else guess
-            return project(lowered, t, x, w, p)[0]
+            return project(held.thing, t, x, algebraic(t, x, guess, p), p)[0]
 
         solver = Projected(solver, onto)
     if n_w:
-        solver = WithAlgebraic(solver, lowered.solve_algebraic)
+        solver = WithAlgebraic(solver, algebraic)
     return solver, field, x0, (p, w0)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from .cache import cache_of
+from .cache import cache_of, without_keeping
 from .jit import compiled_for, inside_jit, is_traced
 
 
@@ -41,7 +41,8 @@ def start(
     with_residual = getattr(system, "initialize_with_residual", None)
     cache = cache_of(system.lowered)
     if "start" not in cache:
-        cache["start"] = jax.jit(with_residual or system.initialize)
+        way = "initialize" if with_residual is None else "initialize_with_residual"
+        cache["start"] = jax.jit(without_keeping(system, lambda system, *given: getattr(system, way)(*given)))
     run = cache["start"]
     if inside_jit() or is_traced(arguments):
         x0, w0, p, *_ = run(*arguments)

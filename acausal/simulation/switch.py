@@ -14,6 +14,7 @@ from jax import Array
 
 from acausal.lowering.hybrid import Roots
 
+from .cache import ById
 from .inputs import DrivenLowered
 from .projection import Wrapped
 from .scan import CUBIC, FURTHER, LOOKS, NODES, ROUNDING, TRUST
@@ -62,7 +63,7 @@ class Switch(eqx.Module):
         size: (n_roots,) largest value of each condition at events.
         noise: (n_roots,) what of each condition is rounding.
         rest: time to the end of the stretch [s].
-        lowered: the equations.
+        held: the equations; the programs that hold a switch are kept with them, and may not keep them.
         roots: the conditions.
         together: whether y holds the algebraic unknowns behind the states.
         n_x: number of states.
@@ -72,10 +73,15 @@ class Switch(eqx.Module):
     size: Array
     noise: Array
     rest: Array
-    lowered: Any = eqx.field(static=True)
+    held: ById = eqx.field(static=True)
     roots: Roots = eqx.field(static=True)
     together: bool = eqx.field(static=True)
     n_x: int = eqx.field(static=True)
+
+    @property
+    def lowered(self) -> Any:
+        """The equations."""
+        return self.held.thing
 
     def armed(self, t: Any, y: Any, args: Any) -> Switch:
         """With slack for what has switched at the start already, but for rounding.
@@ -89,7 +95,7 @@ class Switch(eqx.Module):
         size = jnp.where(self.size > 0.0, self.size, jax.lax.stop_gradient(jnp.abs(rate)) * self.rest)
         some = (behind >= 0.0) & (behind <= ARMED * size)
         slack = self.slack + jnp.where(some, 10.0 * behind + self.noise, 0.0)
-        return Switch(slack, self.size, self.noise, self.rest, self.lowered, self.roots, self.together, self.n_x)
+        return Switch(slack, self.size, self.noise, self.rest, self.held, self.roots, self.together, self.n_x)
 
     def __call__(self, t: Any, y: Any, args: Any, **_: Any) -> Array:
         return SMALL * jnp.min(self.sides(t, y, args))

@@ -26,6 +26,7 @@ from .cache import ById
 from .engines import POINTS
 from .hybrid_run import HybridRun
 from .inputs import drive
+from .jit import inside_jit
 from .native_library import RESULTS, Floats
 from .solution import Solution
 from .started import Given, Seed, Started, Tolerances, parameter_ids
@@ -89,7 +90,8 @@ def simulate_traced(
     """A solve with traced values; the tolerances are those that the model takes."""
     save = _times(saveat, t0, t1)
     tables = tuple(np.shape(t)[0] > 1 for t, _ in signals)
-    spec = _Spec(ById(model), way, tuple(parameters), tuple(initial), tables, max_steps, throw)
+    # JAX keeps callbacks that it has carried out at once, and compiled programs need theirs
+    spec = _Spec(ById(model, keep=inside_jit()), way, tuple(parameters), tuple(initial), tables, max_steps, throw)
     values = (
         tuple(jnp.asarray(v, float) for v in parameters.values()),
         tuple(jnp.asarray(v, float) for v in initial.values()),
