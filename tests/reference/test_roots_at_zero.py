@@ -85,7 +85,7 @@ class Weir(Component):
         yield der(self.h) == 0.3 - self.k * ac.max(self.h - 1.0, 0.0) ** 1.5
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
 @pytest.mark.parametrize(
     ("model", "k", "step"), [(Filling(), 0.1, 0.001), (Weir(), 2.0, 0.01)], ids=["from the foot", "over a weir"]
 )

@@ -64,7 +64,7 @@ def test_a_pulse_between_steps(engine: Any) -> None:
     assert_allclose(y + y**3, np.where(inside, 2.0 * np.exp(-0.01 * times), 0.0), atol=1e-6)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
 def test_families(engine: Any) -> None:
     system = ac.compile(Many())
     assert "AC_FAMILIES" in native_model(system).source.text
@@ -75,14 +75,14 @@ def test_families(engine: Any) -> None:
         assert_allclose(y + y**3, right, atol=2e-6)
 
 
-@pytest.mark.parametrize("options", [{"engine": "native"}, {"engine": "diffrax"}], ids=ENGINES)
-def test_derivatives(options: dict[str, Any]) -> None:
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+def test_derivatives(engine: Any) -> None:
     """y by k and by the start of x at the output times, by the implicit-function theorem."""
     system = ac.compile(Kinked())
 
     def total(k: Any, x: Any, weight: Any) -> Any:
         values = {"parameters": {"k": k}, "initial": {"x": x}}
-        return jnp.sum(weight * system.simulate(10.0, saveat=TIMES, rtol=1e-8, **values, **options)["y"])
+        return jnp.sum(weight * system.simulate(10.0, saveat=TIMES, rtol=1e-8, engine=engine, **values)["y"])
 
     weight = np.cos(np.arange(len(TIMES)))
     by_k, by_x = jax.grad(total, argnums=(0, 1))(2.0, 1.0, weight)
