@@ -11,6 +11,7 @@ import numpy as np
 
 from .language.flat_model import FlatModel
 from .lowering.initial import ACCEPTED
+from .lowering.left_open import left_open
 from .passes.derivative_array import differentiation_index
 from .passes.places import declared
 from .passes.schedule import Schedule
@@ -34,6 +35,8 @@ class Report:
         differentiated: equations that index reduction differentiated.
         states, algebraics, invariants: numbers of states, of algebraic unknowns of the solver, of retained constraints.
         state_names, torn: names of the states and of the algebraic unknowns.
+        left_open, open_names: how many values of the start neither fixed starts nor initial equations determine, and
+            the states among which guesses choose them.
         blocks: size of a block of simultaneous equations to how many there are.
         linear_systems: sizes of the linear systems solved inside the right-hand side.
         families: distinct kernels, and the number of groups they are evaluated in.
@@ -54,6 +57,8 @@ class Report:
     invariants: int
     state_names: tuple[str, ...]
     torn: tuple[str, ...]
+    left_open: int
+    open_names: tuple[str, ...]
     blocks: dict[int, int]
     linear_systems: dict[int, int]
     families: int
@@ -68,6 +73,7 @@ class Report:
     def __str__(self) -> str:
         blocks = ", ".join(f"{n} of size {size}" for size, n in self.blocks.items())
         linear = ", ".join(f"{n} of size {size}" for size, n in self.linear_systems.items()) or "none"
+        count = f"{self.left_open} value{'' if self.left_open == 1 else 's'}"
         rows = [
             ("declared", f"{self.variables} variables, {self.equations} equations"),
             ("alias elimination", f"{self.aliases} eliminated, {self.unknowns} unknowns remain"),
@@ -76,6 +82,7 @@ class Report:
             ("states", f"{self.states}: {_few(self.state_names)}"),
             ("algebraic unknowns", f"{self.algebraics}" + (f": {_few(self.torn)}" if self.torn else "")),
             ("invariants", f"{self.invariants}"),
+            ("start", f"{count} by guesses, of: {_few(self.open_names)}" if self.left_open else "determined"),
             ("blocks", blocks),
             ("linear systems", linear),
             ("kernels", f"{self.families} in {self.groups} groups, {self.levels} levels"),
@@ -97,6 +104,7 @@ def make_report(system: System) -> Report:
     schedule = stages.schedule
     linear = Counter(len(g.kernel.matrix) for g in schedule.groups for _ in range(g.size) if g.kernel.matrix)
     kernels = {id(g.kernel) for g in schedule.groups}
+    open_count, open_states = left_open(system.initial)
     return Report(
         model=system.name,
         variables=stages.counts["variables"],
@@ -111,6 +119,8 @@ def make_report(system: System) -> Report:
         invariants=low.n_g,
         state_names=system.states,
         torn=system.algebraics,
+        left_open=open_count,
+        open_names=tuple(system.states[i] for i in open_states.tolist()),
         blocks=dict(sorted(schedule.block_sizes.items())),
         linear_systems=dict(sorted(linear.items())),
         families=len(kernels),

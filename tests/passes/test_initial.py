@@ -226,6 +226,24 @@ def test_many_redundant_fixed_starts(n: int) -> None:
         system.check_initial(*system.initialize_with_residual(0.0, None, {"pair[1].a.s": 0.2}))
 
 
+def test_the_report_names_what_guesses_choose() -> None:
+    report = ac.compile(Pendulum(x=start(0.6, fixed=True), u=start(2.0))).report()
+    assert report.left_open == 1 and report.open_names == ("u", "v")  # y follows from x
+    assert "start               1 value by guesses, of: u, v\n" in str(report)
+    report = ac.compile(Pendulum(x=start(0.6, fixed=True), u=start(2.0, fixed=True))).report()
+    assert report.left_open == 0 and report.open_names == ()
+    assert "start               determined\n" in str(report)
+
+
+def test_what_initial_equations_determine_is_not_left_open() -> None:
+    class Rest(Pendulum):
+        def initial_equations(self) -> Equations:
+            yield self.u == 3.0 * self.x
+            yield self.x == 0.6
+
+    assert ac.compile(Rest()).report().left_open == 0
+
+
 class Pendulums(Component):
     """Many pendulums whose guesses are off."""
 
