@@ -20,7 +20,8 @@ class PotentialToFlowAdaptor(Component, partial=True):
 
     Subclasses have the flange and its two equations.
 
-    Source: Modelica.Blocks.Interfaces.Adaptors.PotentialToFlowAdaptor, without derivatives of the flow.
+    Source: Modelica.Blocks.Interfaces.Adaptors.PotentialToFlowAdaptor
+    as mechanics uses it: without derivatives of the flow.
     """
 
     use_pder: bool = True
@@ -45,7 +46,8 @@ class FlowToPotentialAdaptor(Component, partial=True):
 
     Subclasses have the flange and its two equations.
 
-    Source: Modelica.Blocks.Interfaces.Adaptors.FlowToPotentialAdaptor, without derivatives of the flow.
+    Source: Modelica.Blocks.Interfaces.Adaptors.FlowToPotentialAdaptor
+    as mechanics uses it: without derivatives of the flow.
     """
 
     use_pder: bool = True

@@ -9,7 +9,7 @@ import pytest
 
 import acausal as ac
 from acausal import Component, start
-from acausal.components import blocks, electrical, rotational, thermal, translational
+from acausal.components import blocks, electrical, multibody, rotational, thermal, translational
 from acausal.components.examples import assemble
 
 MOVING = translational.Mass(m=2.0, s=start(0.0, fixed=True), v=start(3.0, fixed=True))
@@ -82,6 +82,81 @@ def test_junctions_of_a_pnp_transistor_are_named_after_its_polarity() -> None:
         supply=electrical.ConstantVoltage(V=5.0), tr=electrical.PNP(),
     )  # fmt: skip
     run = ac.compile(model).simulate(t1=1e-3, saveat=2)
-    value = {name: run[f"tr.{name}"][-1] for name in ("veb", "vcb", "ieb", "icb", "ceb", "ccb", "qbk", "C.i")}
+    names = ("veb", "vcb", "ieb", "icb", "ceb", "ccb", "qbk", "C.i", "Capcje", "Capcjc", "is_t", "bf_t", "br_t", "vS")
+    value = {name: run[f"tr.{name}"][-1] for name in names}
     assert value["veb"] > 0.5 > 0.0 > value["vcb"] and value["ieb"] > 0.0 and value["ceb"] > value["ccb"] > 0.0
     assert value["C.i"] == pytest.approx(-(value["ieb"] - value["icb"]) * value["qbk"] + value["icb"] / 0.1, rel=1e-6)
+    assert (value["is_t"], value["bf_t"], value["br_t"], value["vS"]) == (1e-16, 50.0, 0.1, 0.0)
+    assert value["Capcje"] == pytest.approx(0.4e-12 * (1.0 + 0.4 * value["veb"] / 0.8), rel=1e-9)
+    assert value["Capcjc"] == pytest.approx(0.5e-12 * (1.0 - value["vcb"] / 0.8) ** -0.333, rel=1e-9)
+    assert value["ceb"] > value["Capcje"] and value["ccb"] >= value["Capcjc"]
+
+
+def test_friction_tells_its_coefficient_at_rest() -> None:
+    table = [[0.0, 0.4], [1.0, 0.3], [10.0, 0.3]]
+    model = assemble(
+        "press.y - brake.f_normalized - slow.f_normalized", "wheel.flange_b - brake.flange_a",
+        "mass.flange_b - slow.flange_a", press=blocks.Constant(), brake=rotational.Brake(mu_pos=table, peak=1.5),
+        wheel=rotational.Inertia(phi=start(0.0, fixed=True), w=start(5.0, fixed=True)),
+        slow=translational.Brake(mu_pos=table),
+        mass=translational.Mass(L=2.0, s=start(0.0, fixed=True), v=start(5.0, fixed=True)),
+    )  # fmt: skip
+    run = ac.compile(model).simulate(t1=0.1, saveat=2)
+    assert (run["brake.mu0"][0], run["brake.mu"][0], run["brake.tau0_max"][0]) == pytest.approx((0.4, 0.3, 0.6))
+    assert (run["slow.mu0"][0], run["slow.s_a"][0], run["slow.s_b"][0]) == pytest.approx((0.4, 1.0, 1.0))
+
+
+def test_a_gear_tells_the_losses_of_both_directions() -> None:
+    gear = rotational.LossyGear(ratio=2.0, lossTable=[[0.0, 0.9, 0.8, 0.3, 0.5], [10.0, 0.8, 0.7, 0.4, 0.7]])
+    model = assemble(
+        "drive.flange - wheel.flange_a", "wheel.flange_b - gear.flange_a", "gear.flange_b - load.flange_a", gear=gear,
+        drive=rotational.ConstantTorque(tau_constant=8.0), load=rotational.Inertia(J=4.0),
+        wheel=rotational.Inertia(phi=start(0.0, fixed=True), w=start(5.0, fixed=True)),
+    )  # fmt: skip
+    run = ac.compile(model).simulate(t1=0.1, saveat=2)
+    of = lambda *names: [run[f"gear.{name}"][0] for name in names]  # noqa: E731
+    assert of("eta_mf1", "eta_mf2", "tau_bf1", "tau_bf2") == pytest.approx([0.85, 0.75, 0.35, 0.6])
+    assert of("tau_bf_a") == pytest.approx([0.25 / (1 / 0.75 - 0.85)])
+    tau, most, least = of("tau_a", "tauLossMax", "tauLossMin")
+    assert most == pytest.approx(0.15 * tau + 0.35) and least == pytest.approx((1 - 1 / 0.75) * tau - 0.6)
+    assert of("tauLoss") == [most] and run["drive.w"][0] == 5.0
+
+
+def test_a_gap_tells_whether_it_is_closed() -> None:
+    gap = translational.ElastoGap(c=100.0, d=500.0)
+    ball = translational.PointMass(m=2.0, s=start(0.1, fixed=True), v=start(-1.0, fixed=True))
+    model = assemble("floor.flange - gap.flange_a", "gap.flange_b - ball.flange", floor=translational.Fixed(), gap=gap,
+                     ball=ball)  # fmt: skip
+    run = ac.compile(model).simulate(t1=0.15, saveat=[0.05, 0.15])
+    assert run["gap.contact"].tolist() == [0.0, 1.0] and run["gap.f_d2"][0] == 0.0
+    v, f_c = run["ball.v"][-1], run["gap.f_c"][-1]
+    assert run["gap.f_d2"][-1] == pytest.approx(500.0 * v) and run["gap.f_d"][-1] == pytest.approx(f_c)  # limited
+
+
+def test_a_line_force_tells_its_direction_in_its_first_frame() -> None:
+    model = assemble(
+        "world.frame_b - turned.frame_a", "turned.frame_b - spring.frame_a", "spring.frame_b - bob.frame_a",
+        world=ac.inner(multibody.World()), turned=multibody.FixedRotation(n=(0.0, 0.0, 1.0), angle=90.0),
+        spring=multibody.Spring(c=10.0), bob=multibody.PointMass(r_0=start((3.0, 4.0, 0.0), fixed=True)),
+    )  # fmt: skip
+    run = ac.compile(model).simulate(t1=0.1, saveat=2)
+    of = lambda name: [run[f"spring.{name}[{i}]"][0] for i in (1, 2, 3)]  # noqa: E731
+    assert run["spring.length"][0] == pytest.approx(5.0)
+    np.testing.assert_allclose(of("r_rel_a"), [4.0, -3.0, 0.0], atol=1e-12)
+    np.testing.assert_allclose(of("e_a"), [0.8, -0.6, 0.0], atol=1e-12)
+
+
+def test_a_detailed_amplifier_tells_the_currents_of_its_inputs() -> None:
+    model = assemble(
+        "source.p - amp.p", "amp.m - amp.outp - load.p", "high.p - amp.p_supply", "low.n - amp.m_supply",
+        "source.n - load.n - high.n - low.p - ground.p", source=electrical.ConstantVoltage(V=2.0),
+        ground=electrical.Ground(), amp=electrical.OpAmpDetailed(), load=electrical.Resistor(R=1e4),
+        high=electrical.ConstantVoltage(V=15.0), low=electrical.ConstantVoltage(V=14.0),
+    )  # fmt: skip
+    run = ac.compile(model).simulate(t1=1e-4, saveat=2)
+    names = "v_3 v_4 v_out v_pos v_neg i_3 i_4 i_vos i_r2 i_out p.i outp.i q_sum q_sum_help".split()
+    of = {name: float(run[f"amp.{name}"][-1]) for name in names}
+    assert (of["v_3"], of["v_pos"], of["v_neg"]) == pytest.approx((1.999, 15.0, -14.0)) and of["v_4"] == of["v_out"]
+    assert of["i_3"] == pytest.approx(9e-8 + 1.999 / 2e9) and of["i_4"] == pytest.approx(7e-8 + of["v_4"] / 2e9)
+    assert of["p.i"] == of["i_vos"] and of["i_out"] == of["outp.i"] and of["q_sum_help"] == pytest.approx(of["q_sum"])
+    assert of["i_r2"] == pytest.approx((of["v_3"] - of["v_4"]) / 2e6, abs=1e-15)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Array, Component, Equations, Solution, System, connect, inner, start
+from acausal import Array, Component, Equations, Solution, System, conditional, connect, inner, start
 from acausal.components import multibody as mb
 from acausal.components import rotational, translational
 
@@ -127,6 +127,45 @@ def test_planar_loop_of_plain_hinges_is_explained() -> None:
     assert "The model has closed loops, at the connections of" in text and "test_multibody_loops.py:" in text
     assert "replace one `Revolute` of each planar loop by `RevolutePlanarLoopConstraint`" in text
     assert "Any other loop needs joints with seven freedoms in all to move" in text
+
+
+class Shafts(Component):
+    """Two shafts at an angle of 0.4 in fixed bearings, with a universal joint where their axes meet."""
+
+    across: bool = False
+    world: mb.World = inner(mb.World(gravityType="NoGravity"))
+    drive: mb.Revolute = mb.Revolute(n=(1.0, 0.0, 0.0), phi=start(0.0, fixed=True), w=start(2.0, fixed=True))
+    one: mb.BodyShape = mb.BodyShape(r=(1.0, 0.0, 0.0), m=1.0)
+    joint: mb.Universal = mb.Universal(n_a=(0.0, 1.0, 0.0), n_b=(0.0, 0.0, 1.0), phi_b=start(0.4))
+    two: mb.BodyShape = mb.BodyShape(r=(1.0, 0.0, 0.0), m=1.0)
+    bearing: mb.Cylindrical = mb.Cylindrical(n=(1.0, 0.0, 0.0))
+    place: mb.FixedTranslation = mb.FixedTranslation(r=(1.0 + np.cos(0.4), np.sin(0.4), 0.0))
+    turned: mb.FixedRotation = mb.FixedRotation(n=(0.0, 0.0, 1.0), angle=float(np.rad2deg(0.4)))
+    y: mb.Prismatic = conditional(mb.Prismatic(n=(0.0, 1.0, 0.0)), "across")
+    z: mb.Prismatic = conditional(mb.Prismatic(n=(0.0, 0.0, 1.0)), "across")
+
+    def equations(self) -> Equations:
+        yield connect(self.world.frame_b, self.drive.frame_a, self.place.frame_a)
+        yield connect(self.drive.frame_b, self.one.frame_a)
+        yield connect(self.one.frame_b, self.joint.frame_a)
+        yield connect(self.joint.frame_b, self.two.frame_a)
+        yield connect(self.two.frame_b, self.bearing.frame_b)
+        yield connect(self.place.frame_b, self.turned.frame_a)
+        if self.across:
+            yield connect(self.turned.frame_b, self.y.frame_a)
+            yield connect(self.y.frame_b, self.z.frame_a)
+            yield connect(self.z.frame_b, self.bearing.frame_a)
+        else:
+            yield connect(self.turned.frame_b, self.bearing.frame_a)
+
+
+def test_shafts_with_a_universal_joint_are_explained() -> None:
+    """The advice works: the shaft turns as a universal joint makes it."""
+    with pytest.raises(ac.StructureError, match=r"axes of a loop meet in one point .*two of them across the shaft"):
+        ac.compile(Shafts())
+    run = ac.compile(Shafts(across=True)).simulate(t1=1.0, saveat=11, rtol=1e-8)
+    np.testing.assert_allclose(np.tan(run["bearing.phi"]), np.tan(run["drive.phi"]) / np.cos(0.4), rtol=1e-6, atol=1e-9)
+    assert max(np.abs(run[f"{name}.s"]).max() for name in ("y", "z", "bearing")) < 1e-8
 
 
 @pytest.mark.parametrize("engine", ["native", "diffrax"])

@@ -269,7 +269,20 @@ class OpAmpDetailed(Component):
     q_fr3: Variable = Variable(unit="V", start=0.0, doc="after the fourth pole")
     q_sum: Variable = Variable(unit="V", doc="sum of differential and common-mode gain")
     q_fp1: Variable = Variable(unit="V", start=0.0, doc="after the dominant pole")
+    q_sum_help: Variable = Variable(unit="V", doc="q_sum, limited by the supply")
     v_source: Variable = Variable(unit="V", start=0.0, doc="voltage of the output stage")
+    v_pos: Variable = Variable(unit="V", doc="potential of the positive supply")
+    v_neg: Variable = Variable(unit="V", doc="potential of the negative supply")
+    v_vos: Variable = Variable(unit="V", doc="input offset voltage")
+    v_3: Variable = Variable(unit="V", doc="potential of p behind the offset voltage")
+    v_4: Variable = Variable(unit="V", doc="potential of m")
+    i_vos: Variable = Variable(unit="A", nominal=1e-6, doc="current into p")
+    i_3: Variable = Variable(unit="A", nominal=1e-6, doc="its part from behind the offset voltage to ground")
+    i_4: Variable = Variable(unit="A", nominal=1e-6, doc="current from m to ground")
+    i_r2: Variable = Variable(unit="A", nominal=1e-6, doc="current of the differential input resistance")
+    i_c3: Variable = Variable(unit="A", nominal=1e-6, doc="current of the input capacitance")
+    v_out: Variable = Variable(unit="V", doc="potential of the output")
+    i_out: Variable = Variable(unit="A", nominal=1e-3, doc="current into the output")
     x: Variable = Variable(unit="V", start=0.0, doc="integral of the slew rate stage")
 
     def equations(self) -> Equations:
@@ -279,32 +292,43 @@ class OpAmpDetailed(Component):
         yield from self._output()
 
     def _input(self) -> Equations:
-        before, leak = self.p.v - self.Vos, self.v_in / self.Rdm + self.Cin * der(self.v_in)
-        yield self.v_in == before - self.m.v
-        yield self.p.i == self.Ib + self.Ios / 2 + before / self.Rcm + leak
-        yield self.m.i == self.Ib - self.Ios / 2 + self.m.v / self.Rcm - leak
+        yield self.v_pos == self.p_supply.v
+        yield self.v_neg == self.m_supply.v
+        yield self.v_vos == self.Vos
+        yield self.v_3 == self.p.v - self.v_vos
+        yield self.v_4 == self.m.v
+        yield self.v_in == self.v_3 - self.v_4
+        yield self.i_r2 == self.v_in / self.Rdm
+        yield self.i_c3 == self.Cin * der(self.v_in)
+        yield self.i_3 == self.Ib + self.Ios / 2 + self.v_3 / self.Rcm
+        yield self.i_4 == self.Ib - self.Ios / 2 + self.v_4 / self.Rcm
+        yield self.i_vos == self.i_3 + self.i_r2 + self.i_c3
+        yield self.p.i == self.i_vos
+        yield self.m.i == self.i_4 - self.i_r2 - self.i_c3
         yield self.p_supply.i == 0
         yield self.m_supply.i == 0
 
     def _gain(self) -> Equations:
         differential = 10 ** (self.Avd0 / 20)
         common = differential / 10 ** (self.CMRR / 20) / 2
-        high, low = self.p_supply.v - ac.abs(self.vcp), self.m_supply.v + ac.abs(self.vcm)
+        high, low = self.v_pos - ac.abs(self.vcp), self.v_neg + ac.abs(self.vcm)
         above, below = (self.q_sum > high) & (self.q_fp1 >= high), (self.q_sum < low) & (self.q_fp1 <= low)
-        limited = where(above, high, where(below, low, self.q_sum))
+        yield self.q_sum_help == where(above, high, where(below, low, self.q_sum))
         yield der(self.q_fr1) == 2 * PI * self.fp2 * (self.v_in - self.q_fr1)
         lag, lead = 1 / (2 * PI * self.fp3), 1 / (2 * PI * self.fz)
         yield self.q_fr2 + lag * der(self.q_fr2) == self.q_fr1 + lead * der(self.q_fr1)
         yield der(self.q_fr3) == 2 * PI * self.fp4 * (self.q_fr2 - self.q_fr3)
-        yield self.q_sum == differential * self.q_fr3 + common * (self.p.v - self.Vos + self.m.v)
-        yield der(self.q_fp1) == 2 * PI * self.fp1 * (limited - self.q_fp1)
+        yield self.q_sum == differential * self.q_fr3 + common * (self.v_3 + self.v_4)
+        yield der(self.q_fp1) == 2 * PI * self.fp1 * (self.q_sum_help - self.q_fp1)
 
     def _output(self) -> Equations:
         rate = (self.q_fp1 - self.v_source) / self.Ts
         yield der(self.x) == rate
         yield der(self.v_source) == ac.clip(rate, -ac.abs(self.sr_m), ac.abs(self.sr_p))
-        current = (self.outp.v - self.v_source) / self.Rout
-        yield self.outp.i == ac.clip(current, -ac.abs(self.Imaxso), ac.abs(self.Imaxsi))
+        current = (self.v_out - self.v_source) / self.Rout
+        yield self.v_out == self.outp.v
+        yield self.i_out == self.outp.i
+        yield self.i_out == ac.clip(current, -ac.abs(self.Imaxso), ac.abs(self.Imaxsi))
 
     def initial_equations(self) -> Equations:
         yield from super().initial_equations()

@@ -50,11 +50,13 @@ class Thyristor(ConditionalHeatPort):
     vGK: Variable = Variable(unit="V", doc="voltage from gate to cathode")
     vAK: Variable = Variable(unit="V", doc="voltage from anode to cathode")
     vControl: Variable = Variable(unit="V", start=0.0, doc="control voltage")
+    iGK: Variable = Variable(unit="A", nominal=1e-3, doc="current of the gate")
+    vConmain: Variable = Variable(unit="V", doc="control voltage that the main current or a breakthrough demands")
     vContot: Variable = Variable(unit="V", doc="voltage that the control voltage follows")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        iGK, vGK, vAK, control = self.Gate.i, self.vGK, self.vAK, self.vControl
+        iGK, vGK, vAK, control = self.iGK, self.vGK, self.vAK, self.vControl
         on, off = (self.VTM - self.knee) / self.ITM, self.VDRM**2 / self.VTM / self.IH
         x = (2 * control - self.Von - self.Voff) / (2 * (self.Von - self.Voff))
         between = vAK / (ac.sqrt(on * off) * (on / off) ** ((3 * x - 4 * x**3) / 2))
@@ -69,7 +71,9 @@ class Thyristor(ConditionalHeatPort):
         yield vGK == self.Gate.v - self.Cathode.v
         yield vAK == self.Anode.v - self.Cathode.v
         yield vGK == where(vGK < self.vRef, self.VGT / self.IGT * iGK, upper)
-        yield self.vContot == held + gate
+        yield iGK == self.Gate.i
+        yield self.vConmain == held
+        yield self.vContot == self.vConmain + gate
         yield der(control) == rise / where(rise > 0, 1.87 * self.TON, 0.638 * self.TOFF)
         yield self.Anode.i == where(vAK < -self.VRRM, breakthrough, where(control < self.Voff, vAK / off, conducting))
         yield self.LossPower == self.Anode.i * self.Anode.v + self.Cathode.i * self.Cathode.v + iGK * self.Gate.v

@@ -85,6 +85,12 @@ class PartialBipolar(PartialTemperatureDependent, partial=True):
     k_q: Parameter = Parameter(BOLTZMANN / CHARGE, unit="V/K", doc="Boltzmann constant over the elementary charge")
     vcs: Variable = Variable(unit="V", doc="voltage from collector to substrate")
     vt_t: Variable = Variable(unit="V", doc="voltage equivalent of the device's temperature")
+    is_t: Variable = Variable(unit="A", nominal=1e-16, doc="saturation current at the device's temperature")
+    bf_t: Variable = Variable(unit="1", doc="forward beta at the device's temperature")
+    br_t: Variable = Variable(unit="1", doc="reverse beta at the device's temperature")
+    Capcjc: Variable = Variable(unit="F", nominal=1e-12, doc="depletion capacitance between base and collector")
+    Capcje: Variable = Variable(unit="F", nominal=1e-12, doc="depletion capacitance between base and emitter")
+    vS: Variable = Variable(unit="V", doc="potential of the substrate")
     qbk: Variable = Variable(unit="1", doc="inverse of the relative majority carrier charge")
     iS: Variable = Variable(unit="A", nominal=1e-6, doc="current of the substrate")
 
@@ -101,12 +107,20 @@ class PartialBipolar(PartialTemperatureDependent, partial=True):
         over_c, over_e = self.NR * thermal, self.NF * thermal
         exp_c, exp_e = exlin2(vbc / over_c, self.EMin, self.EMax), exlin2(vbe / over_e, self.EMin, self.EMax)
         yield self.vt_t == thermal
-        yield self.vcs == self.C.v - (self.S.v if self.useSubstrate else 0.0)
+        yield self.is_t == saturation
+        yield self.bf_t == beta_f
+        yield self.br_t == beta_r
+        yield self.vS == (self.S.v if self.useSubstrate else 0.0)
+        yield self.vcs == self.C.v - self.vS
         yield self.qbk == 1 - vbc * self.Vak
         yield ibc == saturation * (exp_c - 1) + vbc * self.Gbc
         yield ibe == saturation * (exp_e - 1) + vbe * self.Gbe
-        cbc = self.Taur * saturation / over_c * exp_c + self.Cjc * powlin(vbc / self.Phic, self.Mc)
-        cbe = self.Tauf * saturation / over_e * exp_e + self.Cje * powlin(vbe / self.Phie, self.Me)
+        depletion_c = self.Cjc * powlin(vbc / self.Phic, self.Mc)
+        depletion_e = self.Cje * powlin(vbe / self.Phie, self.Me)
+        cbc = self.Taur * saturation / over_c * exp_c + depletion_c
+        cbe = self.Tauf * saturation / over_e * exp_e + depletion_e
+        yield self.Capcjc == depletion_c
+        yield self.Capcje == depletion_e
         yield collector.c == cbc
         yield emitter.c == cbe
         yield self.iS == -self.Ccs * der(self.vcs)

@@ -167,12 +167,14 @@ class Transformer(TwoPort):
     leakage2: Parameter = Parameter(L2 - M, unit="H", doc="what L2 does not couple; follows from L2 and M")
     i1: Variable = Variable(unit="A", start=0.0, doc="current from p1 to n1")
     i2: Variable = Variable(unit="A", start=0.0, doc="current from p2 to n2")
+    dv: Variable = Variable(unit="V", doc="v1 - v2")
 
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.v1 == self.L1 * der(self.i1) + self.M * der(self.i2)
         # the difference, so that L1 = L2 = M loses a state visibly
-        yield self.v1 - self.v2 == self.leakage1 * der(self.i1) - self.leakage2 * der(self.i2)
+        yield self.dv == self.leakage1 * der(self.i1) - self.leakage2 * der(self.i2)
+        yield self.v2 == self.v1 - self.dv
 
 
 class Winding(OnePort):

@@ -61,6 +61,9 @@ class Orientation(Overdetermined):
     loop_advice = (
         "If the joints of a loop are hinges with parallel axes (or slide across them), the constraints across that "
         "plane are there several times: replace one `Revolute` of each planar loop by `RevolutePlanarLoopConstraint`.\n"
+        "If the axes of a loop meet in one point (two shafts in fixed bearings with a `Universal` between them), the "
+        "constraints of position are: put `Prismatic` joints in different directions, two of them across the shaft, "
+        "between one of the bearings and what holds it, until the loop has seven freedoms. They stay where they are.\n"
         "Any other loop needs joints with seven freedoms in all to move (Revolute and Prismatic have one, Universal "
         "and Cylindrical two, Spherical three); one with fewer that moves by its measures alone has to be given them."
     )

@@ -22,7 +22,7 @@ from acausal import (
 )
 
 from .. import thermal, translational
-from .frames import IDENTITY, ZEROS, resolve2, resolve_relative
+from .frames import IDENTITY, TINY, ZEROS, resolve2, resolve_relative
 from .free_joints import implied_mass
 from .parts import PartialTwoFrames
 from .world import Grounded
@@ -45,7 +45,10 @@ class PartialLineForce(PartialTwoFrames, partial=True):
         Variable(unit="m", state_select="never", doc="from frame_a to frame_b, in the world frame")
     )
     e_rel_0: Vector = Vector(Variable(unit="1", doc="direction from frame_a to frame_b, in the world frame"))
-    s: Variable = Variable(unit="m", doc="distance of the frames")
+    r_rel_a: Vector = Vector(Variable(unit="m", doc="from frame_a to frame_b, resolved in frame_a"))
+    e_a: Vector = Vector(Variable(unit="1", doc="direction from frame_a to frame_b, resolved in frame_a"))
+    length: Variable = Variable(unit="m", doc="distance of the frames")
+    s: Variable = Variable(unit="m", doc="distance of the frames, s_small at least")
     f: Variable = Variable(unit="N", doc="force on frame_a toward frame_b, and on frame_b toward frame_a")
 
     def equations(self) -> Equations:
@@ -53,7 +56,10 @@ class PartialLineForce(PartialTwoFrames, partial=True):
         yield self.r_rel_0 == self.frame_b.r_0 - self.frame_a.r_0
         square = dot(self.r_rel_0, self.r_rel_0)
         yield self.s == sqrt(noevent(max(square, self.s_small**2)))  # a root that has a derivative at zero
+        yield self.length == sqrt(noevent(max(square, TINY**2)))
         yield self.e_rel_0 == self.r_rel_0 / self.s
+        yield self.r_rel_a == resolve2(self.frame_a.R, self.r_rel_0)
+        yield self.e_a == self.r_rel_a / self.s
         for frame in (self.frame_a, self.frame_b):
             yield potential_root(frame.R, 20000)
             yield choose(is_root(frame.R), [defining(frame.R.T == IDENTITY), frame.R.w == ZEROS], [frame.t == ZEROS])

@@ -95,6 +95,7 @@ class PartialNormalForce(PartialFriction, partial=True):
     fn_max: Parameter = Parameter(1.0, unit="N", min=0.0, doc="largest normal force")
     f_normalized: Input = Input(unit="1", doc="normal force over its maximum, 0 to 1; free where not positive")
     fn: Variable = Variable(unit="N", doc="normal force")
+    mu0: Variable = Variable(unit="1", doc="friction coefficient at rest, without `peak`")
     mu: Variable = Variable(unit="1", doc="friction coefficient, with the sign of the motion")
     speed: Variable = Variable(doc="speed in the direction of sliding")
     tau: Variable = Variable(unit="N*m", doc="friction torque")
@@ -104,7 +105,8 @@ class PartialNormalForce(PartialFriction, partial=True):
         speeds, coefficients = table_columns(self, "mu_pos", self.mu_pos, "friction coefficient")
         yield self.fn == self.fn_max * self.f_normalized
         yield self.free == where(self.fn <= 0, 1.0, 0.0)
-        yield self.tau0 == blocks.interpolate(0.0 * self.speed, speeds, coefficients) * self.cgeo * self.fn
+        yield self.mu0 == blocks.interpolate(0.0 * self.speed, speeds, coefficients)
+        yield self.tau0 == self.mu0 * self.cgeo * self.fn
         yield self.tau0_max == self.peak * self.tau0
         yield self.speed == self.direction() * self.w_relfric
         coefficient = blocks.interpolate(self.speed, speeds, coefficients)
@@ -193,6 +195,7 @@ class OneWayClutch(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
     unitTorque: Parameter = Parameter(1.0, unit="N*m", doc="scale of sa as a torque")
     f_normalized: Input = Input(unit="1", doc="normal force over its maximum, 0 to 1; free where not positive")
     fn: Variable = Variable(unit="N", doc="normal force")
+    mu0: Variable = Variable(unit="1", doc="friction coefficient at rest, without `peak`")
     mu: Variable = Variable(unit="1", doc="friction coefficient")
     speed: Variable = Variable(doc="relative angular velocity")
     a_rel: Variable = Variable(unit="rad/s2", doc="relative angular acceleration")
@@ -207,12 +210,13 @@ class OneWayClutch(thermal.PartialConditionalHeatPort, PartialCompliantWithRelat
     def equations(self) -> Equations:
         yield from super().equations()
         speeds, coefficients = table_columns(self, "mu_pos", self.mu_pos, "friction coefficient")
-        rest = blocks.interpolate(0.0 * self.speed, speeds, coefficients) * self.cgeo
+        rest = self.mu0 * self.cgeo
         free, along = self.f_normalized <= 0, self.along
         low, high = self.tau0 / self.unitTorque, self.tau0_max / self.unitTorque
         yield self.a_rel == der(self.w_rel)
         yield self.speed == self.w_rel / self.unitAngularAcceleration
         yield self.fn == where(free, 0.0, self.fn_max * self.f_normalized)
+        yield self.mu0 == blocks.interpolate(0.0 * self.speed, speeds, coefficients)
         yield self.tau0 == rest * self.fn
         yield self.tau0_max == where(free, self.eps0 * rest * self.fn_max, ac.max(self.peak, 1 + self.eps0) * self.tau0)
         held = pre(self.stuck) > 0.5

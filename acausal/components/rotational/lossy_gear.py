@@ -45,6 +45,13 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
     a_a: Variable = Variable(unit="rad/s2", doc="angular acceleration of flange a relative to the support")
     tau_a: Variable = Variable(unit="N*m", doc="torque at flange a")
     tauLoss: Variable = Variable(unit="N*m", doc="torque lost, in terms of flange a")
+    tauLossMax: Variable = Variable(unit="N*m", doc="torque that rolling forward loses")
+    tauLossMin: Variable = Variable(unit="N*m", doc="torque that rolling backward loses")
+    eta_mf1: Variable = Variable(unit="1", doc="mesh efficiency while flange a drives")
+    eta_mf2: Variable = Variable(unit="1", doc="mesh efficiency while flange b drives")
+    tau_bf1: Variable = Variable(unit="N*m", doc="bearing friction while flange a drives")
+    tau_bf2: Variable = Variable(unit="N*m", doc="bearing friction while flange b drives")
+    tau_bf_a: Variable = Variable(unit="N*m", doc="part of the bearing friction on the side of flange a")
     speed: Variable = Variable(doc="speed of flange a")
     sa: Variable = Variable(doc="curve parameter: loss while stuck, shifted acceleration while moving")
     along: Variable = Variable(doc="sa from its corner: what holds while stuck, what accelerates while sliding")
@@ -65,16 +72,24 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
             self, "lossTable", self.lossTable, "eta_mf1", "eta_mf2", "tau_bf1", "tau_bf2", largest=(1.0, 1.0)
         )
 
-    def losses(self, speed: Expr) -> tuple[Expr, Expr]:
-        """Torques lost while rolling forward and backward, at this speed."""
+    def table(self, speed: Expr) -> tuple[Expr, Expr, Expr, Expr]:
+        """Both efficiencies and both torques of the bearings at this speed."""
         at, *columns = self.columns
         eta1, eta2, bearing1, bearing2 = (blocks.interpolate(speed, at, column) for column in columns)
-        forth, back, unit = (1 - eta1) * self.tau_a, (1 - 1 / eta2) * self.tau_a, self.unitTorque
+        return eta1, eta2, self.unitTorque * bearing1, self.unitTorque * bearing2
+
+    def bearing_a(self, row: tuple[Expr, Expr, Expr, Expr]) -> Expr:
+        """Part of the bearing friction on the side of flange a, for this row of the table."""
+        eta1, eta2, bearing1, bearing2 = row
         lost = 1 / eta2 - eta1  # zero where the teeth lose nothing; who drives makes no difference then
-        bearing_a = unit * ac.noevent(where(lost > 0, (bearing2 - bearing1) / ac.max(lost, 1e-12), bearing1 / 2))
+        return ac.noevent(where(lost > 0, (bearing2 - bearing1) / ac.max(lost, 1e-12), bearing1 / 2))
+
+    def losses(self, row: tuple[Expr, Expr, Expr, Expr], bearing_a: Expr) -> tuple[Expr, Expr]:
+        """Torques lost while rolling forward and backward, for this row of the table."""
+        eta1, eta2, bearing1, bearing2 = row
+        forth, back = (1 - eta1) * self.tau_a, (1 - 1 / eta2) * self.tau_a
         drives, follows = self.tau_a >= bearing_a, self.tau_a >= -bearing_a
-        forward = where(drives, forth + unit * bearing1, back + unit * bearing2)
-        return forward, where(follows, back - unit * bearing2, forth - unit * bearing1)
+        return where(drives, forth + bearing1, back + bearing2), where(follows, back - bearing2, forth - bearing1)
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -87,6 +102,10 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
         yield self.flange_b.tau == -self.ratio * (self.tau_a - self.tauLoss)
         yield self.speed == ac.noevent(ac.abs(self.w_a))
         yield self.lossPower == self.tauLoss * self.w_a
+        present = (self.eta_mf1, self.eta_mf2, self.tau_bf1, self.tau_bf2)
+        for value, entry in zip(present, self.table(self.speed), strict=True):
+            yield value == entry
+        yield self.tau_bf_a == self.bearing_a(present)
         yield from self._free() if self.ideal else self._rolling()
         yield from self._continued()
 
@@ -107,7 +126,8 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
 
     def _free(self) -> Equations:
         """Nothing is lost, and nothing holds the gear."""
-        yield self.tauLoss == 0.0 * self.tau_a
+        for torque in (self.tauLoss, self.tauLossMax, self.tauLossMin):
+            yield torque == 0.0 * self.tau_a
         yield self.a_a == self.unitAngularAcceleration * self.along
         yield self.sa == self.along
         for flag in (self.startForward, self.startBackward, self.locked):
@@ -117,8 +137,12 @@ class LossyGear(thermal.PartialConditionalHeatPort, PartialTwoFlangesAndSupport)
     def _rolling(self) -> Equations:
         """State machine: rolling forward, rolling backward, or stuck."""
         along, was = self.along, pre(self.mode)
-        forward_most, backward_most = self.losses(self.speed)
-        highest, lowest = (loss / self.unitTorque for loss in self.losses(0.0 * self.speed))
+        forward_most, backward_most = self.tauLossMax, self.tauLossMin
+        most = self.losses((self.eta_mf1, self.eta_mf2, self.tau_bf1, self.tau_bf2), self.tau_bf_a)
+        yield forward_most == most[0]
+        yield backward_most == most[1]
+        rest = self.table(0.0 * self.speed)
+        highest, lowest = (loss / self.unitTorque for loss in self.losses(rest, self.bearing_a(rest)))
         forward, stuck, backward, held = was == FORWARD, was == STUCK, was == BACKWARD, pre(self.locked) > 0.5
         begins, returns = ac.initial() & (self.w_a > 0), ac.initial() & (self.w_a < 0)
         goes_on, comes_on = pre(self.startForward) > 0.5, pre(self.startBackward) > 0.5

@@ -64,9 +64,11 @@ class ConstantTorque(PartialOneFlangeAndSupport):
 
     tau_constant: Parameter = Parameter(1.0, unit="N*m", doc="driving torque")
     tau: Variable = Variable(unit="N*m", doc="driving torque, -flange.tau")
+    w: Variable = Variable(unit="rad/s", doc="angular velocity of the flange relative to the support")
 
     def equations(self) -> Equations:
         yield from super().equations()
+        yield self.w == der(self.phi)
         yield self.tau == -self.flange.tau
         yield self.tau == self.tau_constant
 
@@ -218,6 +220,7 @@ class EddyCurrentTorque(thermal.PartialConditionalHeatPort, PartialOneFlangeAndS
     excitation: Input = Input(unit="1", doc="excitation with useExcitationInput")
     tau: Variable = Variable(unit="N*m", doc="torque of the flange, against the motion")
     w: Variable = Variable(unit="rad/s", doc="angular velocity of the flange relative to the support")
+    w_normalized: Variable = Variable(unit="1", doc="speed over that of the largest torque")
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -225,7 +228,8 @@ class EddyCurrentTorque(thermal.PartialConditionalHeatPort, PartialOneFlangeAndS
             yield self.excitation == self.constantExcitation
         temperature = self.heatPort.T if self.useHeatPort else self.T
         slope = self.alpha20 / (1 + self.alpha20 * (self.TRef - self.T20))
-        x = self.w / (self.w_nominal * (1 + slope * (temperature - self.TRef)))
+        x = self.w_normalized
+        yield x == self.w / (self.w_nominal * (1 + slope * (temperature - self.TRef)))
         yield self.tau == self.flange.tau
         yield self.w == der(self.phi)
         yield self.tau == 2 * self.tau_nominal * self.excitation**2 * x / (1 + x * x)

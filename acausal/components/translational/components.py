@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import acausal as ac
-from acausal import Component, Equations, Input, Parameter, Variable, der, structural, where
+from acausal import Component, Discrete, Equations, Input, Parameter, Variable, der, structural, where
 
 from .. import thermal
 from .interfaces import Flange, PartialCompliant, PartialCompliantWithRelativeStates, PartialRigid, PartialTwoFlanges
@@ -207,14 +207,18 @@ class ElastoGap(thermal.PartialConditionalHeatPort, PartialCompliantWithRelative
     s_ref: Parameter = Parameter(1.0, unit="m", min=1e-15, doc="compression at which the spring has f_ref")
     f_ref: Parameter = Parameter(c * s_ref, unit="N", min=0.0, doc="force of the spring at s_ref")
     n: Parameter = Parameter(1.0, unit="1", min=1.0, doc="exponent of the spring's law")
+    contact: Discrete = Discrete(doc="whether the sides touch, s_rel < s_rel0")
     f_c: Variable = Variable(unit="N", nominal=1e3, doc="force of the spring")
+    f_d2: Variable = Variable(unit="N", nominal=1e3, doc="force of the damper before it is limited")
     f_d: Variable = Variable(unit="N", nominal=1e3, doc="force of the damper")
 
     def equations(self) -> Equations:
         yield from super().equations()
         gap = self.s_rel - self.s_rel0
         yield self.f_c == -self.f_ref * (ac.max(-gap, 0.0) / self.s_ref) ** self.n
-        yield self.f_d == where(gap < 0, ac.noevent(ac.clip(self.d * self.v_rel, self.f_c, -self.f_c)), 0.0)
+        yield self.contact == where(gap < 0, 1.0, 0.0)
+        yield self.f_d2 == where(gap < 0, self.d * self.v_rel, 0.0)
+        yield self.f_d == where(gap < 0, ac.noevent(ac.clip(self.f_d2, self.f_c, -self.f_c)), 0.0)
         yield self.f == self.f_c + self.f_d
         yield self.lossPower == self.f_d * self.v_rel
 

@@ -66,7 +66,7 @@ class SupportFriction(thermal.PartialConditionalHeatPort, PartialFriction, Parti
         yield self.f0 == self.unitForce * blocks.interpolate(0.0 * self.speed, speeds, forces)
         yield self.f0_max == self.peak * self.f0
         yield self.free == 0.0
-        yield self.s == self.flange_a.s - self.s_support
+        yield self.s == self.s_a
         yield self.flange_b.s == self.flange_a.s
         yield self.v == der(self.s)
         yield self.a == der(self.v)
@@ -92,6 +92,7 @@ class PartialNormalForce(PartialFriction, partial=True):
     fn_max: Parameter = Parameter(1.0, unit="N", min=0.0, doc="largest normal force")
     f_normalized: Input = Input(unit="1", doc="normal force over its maximum, 0 to 1; free where not positive")
     fn: Variable = Variable(unit="N", doc="normal force")
+    mu0: Variable = Variable(unit="1", doc="friction coefficient at rest, without `peak`")
     mu: Variable = Variable(unit="1", doc="friction coefficient, with the sign of the motion")
     speed: Variable = Variable(doc="speed in the direction of sliding")
     f: Variable = Variable(unit="N", doc="friction force")
@@ -101,7 +102,8 @@ class PartialNormalForce(PartialFriction, partial=True):
         speeds, coefficients = table_columns(self, "mu_pos", self.mu_pos, "friction coefficient")
         yield self.fn == self.fn_max * self.f_normalized
         yield self.free == where(self.fn <= 0, 1.0, 0.0)
-        yield self.f0 == blocks.interpolate(0.0 * self.speed, speeds, coefficients) * self.cgeo * self.fn
+        yield self.mu0 == blocks.interpolate(0.0 * self.speed, speeds, coefficients)
+        yield self.f0 == self.mu0 * self.cgeo * self.fn
         yield self.f0_max == self.peak * self.f0
         yield self.speed == self.direction() * self.v_relfric
         coefficient = blocks.interpolate(self.speed, speeds, coefficients)
@@ -129,7 +131,7 @@ class Brake(thermal.PartialConditionalHeatPort, PartialNormalForce, PartialTwoFl
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.s == self.flange_a.s - self.s_support
+        yield self.s == self.s_a
         yield self.flange_b.s == self.flange_a.s
         yield self.v == der(self.s)
         yield self.a == der(self.v)

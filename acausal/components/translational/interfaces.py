@@ -150,13 +150,18 @@ class PartialOneFlangeAndSupport(PartialSupport, partial=True):
 
 
 class PartialTwoFlangesAndSupport(PartialSupport, PartialTwoFlanges, partial=True):
-    """Two flanges and a support that takes the sum of their forces.
+    """Two flanges and a support that takes the sum of their forces, ``s_a = flange_a.s - support.s``, likewise `s_b`.
 
     Source: Modelica.Mechanics.Translational.Interfaces.PartialElementaryTwoFlangesAndSupport2.
     """
 
+    s_a: Variable = Variable(unit="m", doc="position of flange a relative to the support")
+    s_b: Variable = Variable(unit="m", doc="position of flange b relative to the support")
+
     def equations(self) -> Equations:
         yield from super().equations()
+        yield self.s_a == self.flange_a.s - self.s_support
+        yield self.s_b == self.flange_b.s - self.s_support
         yield from self.supported(-self.flange_a.f - self.flange_b.f)
 
 

@@ -226,6 +226,7 @@ class EddyCurrentForce(thermal.PartialConditionalHeatPort, PartialForce):
     constantExcitation: Parameter = Parameter(1.0, unit="1", doc="excitation without useExcitationInput")
     excitation: Input = Input(unit="1", doc="excitation with useExcitationInput")
     v: Variable = Variable(unit="m/s", doc="velocity of the flange relative to the support")
+    v_normalized: Variable = Variable(unit="1", doc="speed over that of the largest force")
 
     def equations(self) -> Equations:
         yield from super().equations()
@@ -233,7 +234,8 @@ class EddyCurrentForce(thermal.PartialConditionalHeatPort, PartialForce):
             yield self.excitation == self.constantExcitation
         temperature = self.heatPort.T if self.useHeatPort else self.T
         slope = self.alpha20 / (1 + self.alpha20 * (self.TRef - self.T20))
-        x = self.v / (self.v_nominal * (1 + slope * (temperature - self.TRef)))
+        x = self.v_normalized
+        yield x == self.v / (self.v_nominal * (1 + slope * (temperature - self.TRef)))
         yield self.v == der(self.s)
         yield self.f == 2 * self.f_nominal * self.excitation**2 * x / (1 + x * x)
         yield self.lossPower == self.f * self.v
