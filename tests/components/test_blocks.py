@@ -427,3 +427,33 @@ def test_a_table_that_was_forgotten_is_an_error(kind: type[Component]) -> None:
     """Without rows of its own it would be that of another curve."""
     with pytest.raises(ac.DeclarationError, match=f"{kind.__name__}: the table has no rows, give it some"):
         ac.compile(assemble(table=kind()))
+
+
+@pytest.mark.parametrize(("startTime", "y"), [(0.0, [3.0, 3.0, 3.0]), (0.5, [1.0, 3.0, 3.0])])
+def test_a_ramp_of_no_duration_is_a_step(startTime: float, y: list[float]) -> None:
+    model = assemble(ramp=blocks.Ramp(height=2.0, offset=1.0, duration=0.0, startTime=startTime),
+                     sweep=blocks.LogFrequencySweep(wMin=1.0, wMax=3.0, duration=0.0, startTime=startTime))  # fmt: skip
+    run = ac.compile(model).simulate(t1=1.0, saveat=3)
+    assert run["ramp.y"].tolist() == y
+    np.testing.assert_allclose(run["sweep.y"], y)
+
+
+def test_what_samples_later_begins_with_the_input_at_the_start() -> None:
+    late = {"samplePeriod": 0.2, "startTime": 0.5}
+    model = assemble("line.y - sampler.u - hold.u", line=blocks.Slope(slope=1.0, offset=3.0),
+                     sampler=discrete.Sampler(**late), hold=discrete.ZeroOrderHold(**late))  # fmt: skip
+    run = ac.compile(model).simulate(t1=1.0, saveat=[0.0, 0.4, 0.6, 0.8])
+    for name in ("sampler", "hold"):
+        np.testing.assert_allclose(run[f"{name}.y"], [3.0, 3.0, 3.5, 3.7])
+
+
+def test_limits_that_contradict_each_other_are_errors() -> None:
+    crossing = assemble("high.y - cut.limit1 - cut.u", "low.y - cut.limit2", high=blocks.Slope(slope=-2.0, offset=1.0),
+                        low=blocks.Constant(k=0.0), cut=blocks.VariableLimiter())  # fmt: skip
+    with pytest.raises(ac.SimulationError, match=r"At t = 0\.5 s .*limit2, is above its upper one, limit1"):
+        ac.compile(crossing).simulate(t1=1.0)
+    control = blocks.LimPID(controllerType="PI", initType="InitialOutput", yMax=1.0, y_start=2.0)
+    beyond = assemble("one.y - control.u_s", "two.y - control.u_m", one=blocks.Constant(), two=blocks.Constant(),
+                      control=control)  # fmt: skip
+    with pytest.raises(ac.SimulationError, match=r"y_start, is not within its limits(.|\n)*y_start = 2"):
+        ac.compile(beyond).simulate(t1=1.0)

@@ -12,6 +12,7 @@ from acausal import (
     Output,
     Parameter,
     Variable,
+    assert_,
     clip,
     conditional,
     connect,
@@ -190,6 +191,9 @@ class LimPID(Component):
             yield self.u_ff == 0
         yield connect(self.addFF.y, self.limiter.u)
         yield connect(self.limiter.y, self.y)
+        if self.initType == "InitialOutput":
+            within = (self.y_start >= self.yMin) & (self.y_start <= self.yMax)
+            yield assert_(within, "the start of the output, y_start, is not within its limits, yMin and yMax")
 
     def _derivative(self) -> Equations:
         if not self.with_D:

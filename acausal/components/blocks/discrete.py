@@ -28,7 +28,7 @@ class PartialSampled(Component, partial=True):
 
 
 class Sampler(PartialSampled):
-    """The input at the last sample.
+    """The input at the last sample; before the first, at the start.
 
     >>> model = assemble("ramp.y - held.u", ramp=Slope(slope=1.0), held=Sampler(samplePeriod=0.25))
     >>> run(model, at=[0.1, 0.3, 0.6, 0.9])["held.y"]
@@ -41,11 +41,13 @@ class Sampler(PartialSampled):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield when(self.sampled, {self.y: self.u})
+        yield when([ac.initial(), self.sampled], {self.y: self.u})
 
 
 class ZeroOrderHold(PartialSampled):
     """The input at the last sample, held until the next; at a sample itself that before, which breaks loops.
+
+    Before the first sample it is the input at the start.
 
     >>> model = assemble("ramp.y - held.u", ramp=Slope(slope=1.0), held=ZeroOrderHold(samplePeriod=0.25))
     >>> run(model, at=[0.1, 0.3, 0.6, 0.9])["held.y"]
@@ -59,7 +61,7 @@ class ZeroOrderHold(PartialSampled):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield when(self.sampled, {self.ySample: self.u})
+        yield when([ac.initial(), self.sampled], {self.ySample: self.u})
         yield self.y == pre(self.ySample)
 
 

@@ -54,6 +54,8 @@ class VariableLimiter(SISO):
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.y == clip(self.u, self.limit2, self.limit1)
+        message = "the lower limit of a VariableLimiter, limit2, is above its upper one, limit1"
+        yield assert_(self.limit1 >= self.limit2, message)
 
 
 class DeadZone(SISO):

@@ -24,6 +24,13 @@ class Constant(SO):
         yield self.y == self.k
 
 
+def risen(start: Expr, duration: Expr) -> Expr:
+    """Share of the time from `start` to ``start + duration`` that is over, 0 to 1 [s]; a step where that is no time."""
+    t = ac.time - start
+    line = clip(t / where(duration > 0, duration, 1.0), 0.0, 1.0)
+    return where(duration > 0, line, where(t >= 0, 1.0, 0.0))
+
+
 class Step(SignalSource):
     """Step, ``y = offset``, from `startTime` on ``offset + height``.
 
@@ -41,7 +48,7 @@ class Step(SignalSource):
 
 
 class Ramp(SignalSource):
-    """Ramp from `offset` to ``offset + height`` between `startTime` and ``startTime + duration``.
+    """Ramp from `offset` to ``offset + height`` between `startTime` and ``startTime + duration``; a step if that is 0.
 
     >>> run(Ramp(height=4.0, duration=0.5, startTime=0.25), at=[0.0, 0.25, 0.5, 1.0])["y"]
     [0.0, 0.0, 2.0, 4.0]
@@ -50,11 +57,11 @@ class Ramp(SignalSource):
     """
 
     height: Parameter = Parameter(1.0, doc="height of the ramp")
-    duration: Parameter = Parameter(2.0, unit="s", min=1e-30, doc="duration of the ramp")
+    duration: Parameter = Parameter(2.0, unit="s", min=0.0, doc="duration of the ramp")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.y == self.offset + self.height * clip((ac.time - self.startTime) / self.duration, 0.0, 1.0)
+        yield self.y == self.offset + self.height * risen(self.startTime, self.duration)
 
 
 class Slope(SignalSource):
@@ -274,6 +281,8 @@ class Sinc(SignalSource):
 class LogFrequencySweep(SO):
     """Frequency that grows exponentially from `wMin` to `wMax`, ``y = wMin (wMax/wMin)^((t - startTime)/duration)``.
 
+    With a `duration` of 0 it is a step.
+
     >>> close(run(LogFrequencySweep(wMin=1.0, wMax=100.0), at=[0.0, 0.5, 1.0])["y"], [1.0, 10.0, 100.0])
     True
 
@@ -283,9 +292,8 @@ class LogFrequencySweep(SO):
     wMin: Parameter = Parameter(1.0, min=2e-16, doc="frequency at the start")
     wMax: Parameter = Parameter(10.0, min=2e-16, doc="frequency at the end")
     startTime: Parameter = Parameter(0.0, unit="s", doc="time at which the sweep begins")
-    duration: Parameter = Parameter(1.0, unit="s", min=1e-30, doc="duration of the sweep")
+    duration: Parameter = Parameter(1.0, unit="s", min=0.0, doc="duration of the sweep")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        part = clip((ac.time - self.startTime) / self.duration, 0.0, 1.0)
-        yield self.y == self.wMin * (self.wMax / self.wMin) ** part
+        yield self.y == self.wMin * (self.wMax / self.wMin) ** risen(self.startTime, self.duration)
