@@ -120,8 +120,9 @@ class EventIteration(ModeSearch):
     def _put_lefts(self, p: Floats, point: Point) -> list[int]:
         """Put left limits into p; the slots that change, those of continuous quantities by more than rounding."""
         changed: list[int] = []
-        for piece, moves in zip(self.hybrid.pres, self.hybrid.moving_lefts, strict=True):
-            left, old = piece.values(point)[0], p[piece.slots]
+        lefts = [piece.values(point)[0] for piece in self.hybrid.pres]  # before any changes: one may have another in it
+        for piece, moves, left in zip(self.hybrid.pres, self.hybrid.moving_lefts, lefts, strict=True):
+            old = p[piece.slots]
             same = (old == left) | (np.isnan(old) & np.isnan(left))
             if moves:
                 same |= np.abs(left - old) <= NOISE * self._scale(piece, point)
@@ -199,8 +200,8 @@ class EventIteration(ModeSearch):
             self._check(point)
             if active:
                 ended = ended or self._ends(point)
-            z = self._reinitialized(t, z, p, point)
-            moved = self._put_lefts(p, point)
+            z, left = self._reinitialized(t, z, p, point)
+            moved = self._put_lefts(p, left)
             self.before = now
             if not active and not moved:
                 self._check_solved(t, values)
@@ -293,8 +294,12 @@ class EventIteration(ModeSearch):
         self.noise = np.concatenate(parts)
 
     # ---- actions ----------------------------------------------------------------------------------
-    def _reinitialized(self, t: float, z: Floats, p: Floats, point: Point) -> Floats:
-        """States with the values that `reinit` gives; those that depend on them follow by the least change."""
+    def _reinitialized(self, t: float, z: Floats, p: Floats, point: Point) -> tuple[Floats, Point]:
+        """States with the values that `reinit` gives, and what the left limits of the next turn are.
+
+        What depends on these states follows by the least change. A second `reinit` at the same moment begins from what
+        the first has given: the states are copied before their left limits are (Modelica Language Specification 8.3.6).
+        """
         low = self.problem.lowered
         wanted: dict[int, float] = {}
         move = Move(t, z, p.copy(), [], z)
@@ -305,7 +310,7 @@ class EventIteration(ModeSearch):
             for row in move.reinits[-1]:
                 wanted[int(item.targets[row])] = float(item.signs[row] * value[row])
         if not wanted:
-            return z
+            return z, point
         self.forced = []
         ids, values = np.array(list(wanted), np.int64), np.array(list(wanted.values()))
         position = {int(v): i for i, v in enumerate(low.schedule.states.tolist())}
@@ -320,7 +325,10 @@ class EventIteration(ModeSearch):
         if low.n_g and ids.tobytes() not in self.shared:
             self.shared.add(ids.tobytes())
             self._tell_shared(t, z, p, point, ids, values)
-        return z
+        behind = point.v.copy()
+        behind[low.schedule.states] = z[: low.n_x]
+        behind[ids] = values
+        return z, Point(t, behind, p)
 
     def _tell_shared(self, t: float, z: Floats, p: Floats, before: Point, ids: Ints, values: Floats) -> None:
         """Warn of states that jump with `reinit` by the least change, each of which could keep its value.
@@ -466,8 +474,8 @@ class EventIteration(ModeSearch):
         self.moves = []
         seen = self._active(p)
         ended = self._ends(point) if seen else None
-        z = self._reinitialized(t0, z, p, point)
-        self._put_lefts(p, point)
+        z, begun = self._reinitialized(t0, z, p, point)
+        self._put_lefts(p, begun)
         for piece in hybrid.triggers:
             p[piece.slots] = 0.0
         if slots.initial >= 0:

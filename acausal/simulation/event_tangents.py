@@ -158,8 +158,10 @@ class EventTangents:
         return [np.zeros((n, k)) if g is None else np.broadcast_to(g, (n, k)) for _, g in found]
 
     def _reinitialized(self, move: Move, run: NumericRun, dz: Floats, dp: Floats, tau: Floats) -> Floats:
+        """Derivatives of the states behind `reinit`; `run` goes on with them, for the left limits of the next turn."""
         low = self.low
-        position = {int(v): i for i, v in enumerate(low.schedule.states.tolist())}
+        states = low.schedule.states
+        position = {int(v): i for i, v in enumerate(states.tolist())}
         wanted: dict[int, Floats] = {}
         for item, rows in zip(self.hybrid.reinits, move.reinits, strict=False):
             if len(rows):
@@ -170,7 +172,11 @@ class EventTangents:
         for v, slope in wanted.items():
             if v in position:
                 dz[position[v]] = slope
+        if not wanted:
+            return dz[: low.n_x]
+        run.value[states] = move.z_after[: low.n_x]
         if move.free is None:
+            run.gradient[states] = dz[: low.n_x]
             return dz[: low.n_x]
         ids = np.array(list(wanted), np.int64)
         problem = replace(self.iteration.problem, families=[], targets=ids)
@@ -181,6 +187,8 @@ class EventTangents:
         columns = np.concatenate([np.flatnonzero(move.free), low.n_x + np.arange(low.n_w)])
         ease = np.concatenate([low.x_nominal, EASE_ALGEBRAIC * low.w_nominal])[columns]
         dz[columns] += ease[:, None] * least_change(conditions(move.z_after)[1][:, columns], ease, rates)
+        run.gradient[states] = dz[: low.n_x]
+        run.value[ids], run.gradient[ids] = value[ids], d_wanted
         return dz[: low.n_x]
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import Component, Discrete, Equations, Parameter, Variable, der, pre, reinit, sample, when, where
+from acausal import Component, Discrete, Equations, Parameter, Variable, der, edge, pre, reinit, sample, when, where
 
 ENGINES = pytest.mark.parametrize("engine", ["native", "diffrax"])
 
@@ -179,3 +179,68 @@ def test_left_limits_of_booleans_and_integers(engine: Any) -> None:
         wanted.append((on, i, old, most))
     found = np.stack([solution[k] for k in ("on", "i", "old", "most")], axis=1)
     np.testing.assert_array_equal(found, wanted)
+
+
+class StruckTwice(Component):
+    """A sample sets a state, and the `when` that this triggers sets it again at the same moment."""
+
+    step: Parameter = Parameter(1.5)
+    x: Variable = Variable(start=0.0, fixed=True)
+    left: Discrete = Discrete(start=0.0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1.0
+        yield when(
+            [self.x >= 2.0, sample(1.0, 5.0)], reinit(self.x, pre(self.x) + self.step), {self.left: pre(self.x)}
+        )
+
+
+@ENGINES
+def test_a_second_reinit_at_the_same_moment_begins_from_the_first(engine: Any) -> None:
+    system = ac.compile(StruckTwice())
+    run = system.simulate(1.5, engine=engine, saveat=2)
+    assert [run["x"][-1], run["left"][-1]] == pytest.approx([4.5, 2.5])
+
+
+def test_derivatives_of_a_second_reinit_at_the_same_moment() -> None:
+    import jax
+
+    system = ac.compile(StruckTwice())
+    slope = jax.grad(lambda a: system.simulate(1.5, parameters={"step": a}, saveat=2)["x"][-1])(1.5)
+    assert slope == pytest.approx(2.0)
+
+
+class EdgeOfBefore(Component):
+    """The edge of a condition on what a discrete variable was."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    count: Discrete = Discrete(start=0)
+    seen: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1.0
+        yield when(sample(0.1, 0.1), {self.count: pre(self.count) + 1})
+        yield when(edge(pre(self.count) > 2.5), {self.seen: pre(self.seen) + 1})
+
+
+@ENGINES
+def test_an_edge_of_a_left_limit(engine: Any) -> None:
+    run = ac.compile(EdgeOfBefore()).simulate(0.55, engine=engine, saveat=2)
+    assert [run["count"][-1], run["seen"][-1]] == [5.0, 1.0]
+
+
+class ThrownDown(Component):
+    """What reaches the ground is put below it, where it rises until it is pulled down; it does not come back."""
+
+    x: Variable = Variable(start=0.5, fixed=True)
+    falls: Discrete = Discrete(start=1)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == where(self.falls > 0.5, -30.0, 0.5)
+        yield when(self.x <= 0.0, {self.falls: 0}, reinit(self.x, -1.0)).elsewhen(ac.time > 0.5, {self.falls: 1})
+
+
+@ENGINES
+def test_what_is_set_elsewhere_need_not_come_back_to_its_switch(engine: Any) -> None:
+    run = ac.compile(ThrownDown()).simulate(2.0, engine=engine, saveat=2)
+    assert run["x"][-1] == pytest.approx(-1.0 + 0.5 * (0.5 - 1 / 60) - 30 * 1.5)

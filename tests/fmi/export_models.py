@@ -259,6 +259,23 @@ class Rounded(Component):
         yield self.y == ac.floor(2.0 * self.x)
 
 
+class StruckTwice(Component):
+    """A state that is set twice at a moment, and the edge of a condition on what a discrete variable was."""
+
+    x: Variable = Variable(start=0.0, fixed=True)
+    left: Discrete = Discrete(start=0.0)
+    n: Discrete = Discrete(start=0)
+    seen: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield der(self.x) == 1.0
+        yield when(
+            [self.x >= 2.0, sample(1.0, 5.0)], reinit(self.x, pre(self.x) + 1.5),
+            {self.left: pre(self.x), self.n: pre(self.n) + 1},
+        )  # fmt: skip
+        yield when(ac.edge(pre(self.n) > 1.5), {self.seen: pre(self.seen) + 1})
+
+
 class Ends(Component):
     """Warns, and ends the simulation."""
 

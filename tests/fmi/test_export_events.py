@@ -23,6 +23,7 @@ from .export_models import (
     Rectifier,
     Rounded,
     Sampled,
+    StruckTwice,
     Thermostat,
     Ticking,
     Wall,
@@ -31,7 +32,7 @@ from .export_unit import DISCARD, ERROR, OK, WARNING, Instance, Unit, exported
 
 BOTH = pytest.mark.parametrize("version", ("2.0", "3.0"))
 RUNS = {Ball: 1.5, Thermostat: 15.0, Sampled: 2.0, Ticking: 2.0, Rectifier: 3.0, Wall: 2.0, Rounded: 3.0,
-        Dosed: 2.0, Latch: 4.0, Pulsed: 2.0}  # fmt: skip
+        Dosed: 2.0, Latch: 4.0, Pulsed: 2.0, StruckTwice: 1.5}  # fmt: skip
 
 
 def _cases() -> Iterator[Any]:

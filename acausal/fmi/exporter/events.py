@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from ...language.flat_model import Family
+import numpy as np
+
+from ...language.flat_model import Bools, Family
+from ...language.template import Ints
 from ...lowering.c.text import array
 from ...lowering.hybrid import Hybrid, Piece
 from ...lowering.levels import levels
 from ...symbolic.expr import Expr
+from ...symbolic.traverse import leaves
 from .variables import ExportError
 
 if TYPE_CHECKING:
@@ -50,8 +54,8 @@ def event_tables(system: System) -> list[str]:
     sizes = dict.fromkeys(("FLOORS", "PRES", "CONDITIONS", "REINITS", "ASSERTS", "ENDS", "SAMPLES"), 0)
     numbers: dict[str, list[int]] = {
         name: [] for name in (
-            "floor_slot", "pre_slot", "pre_source", "pre_sign", "condition_slot", "reinit_state", "reinit_sign",
-            "sample_slot", "assert_fatal", "root_follows",
+            "floor_slot", "pre_slot", "pre_source", "pre_sign", "pre_of_states", "condition_slot", "reinit_state",
+            "reinit_sign", "sample_slot", "assert_fatal", "root_follows",
         )
     }  # fmt: skip
     texts: dict[str, list[str]] = {"slot_text": [], "assert_text": [], "end_text": []}
@@ -60,6 +64,7 @@ def event_tables(system: System) -> list[str]:
         numbers["floor_slot"] = _slots(hybrid.floors)
         numbers["pre_slot"] = _slots(hybrid.pres)
         numbers["pre_source"], numbers["pre_sign"] = _pre_sources(system, hybrid)
+        numbers["pre_of_states"] = [int(of) for piece in hybrid.pres for of in _of_states(piece, states, hybrid.first)]
         numbers["condition_slot"] = [s for piece in hybrid.triggers for s in piece.slots.tolist() for _ in piece.forms]
         numbers["sample_slot"] = _slots(hybrid.samples)
         numbers["reinit_state"], numbers["reinit_sign"] = _reinits(system, hybrid)
@@ -96,6 +101,15 @@ def event_tables(system: System) -> list[str]:
 
 def _slots(pieces: Iterable[Piece]) -> list[int]:
     return [s for piece in pieces for s in piece.slots.tolist()]
+
+
+def _of_states(piece: Piece, states: Ints, first_slot: int) -> Bools:
+    """Whether what it is the left limit of depends on states and parameters alone, for each row."""
+    below = leaves(*piece.forms)
+    read = [piece.rows.par_rows[:, leaf.value] for leaf in below if leaf.op == "par"]
+    if not any(leaf.op == "var" for leaf in below) or any((rows >= first_slot).any() for rows in read):
+        return np.zeros(piece.rows.size, bool)
+    return np.asarray(np.isin(piece.rows.var_rows, states).all(axis=1), bool)
 
 
 def _pre_sources(system: System, hybrid: Hybrid) -> tuple[list[int], list[int]]:

@@ -107,6 +107,17 @@ static int fmu_lefts(fmu_instance *f) {
     return changed;
 }
 
+/* Left limits of the next turn. Those of states are what `reinit` has given them in this one, from which a second `reinit`
+   at the same moment begins: states are copied before their left limits are (Modelica Language Specification 8.3.6). */
+static int fmu_next_lefts(fmu_instance *f, int active) {
+    int changed = fmu_lefts(f);
+    if (!active || FMU_REINITS == 0) return changed;
+    fmu_event_values(f);
+    for (int k = 0; k < FMU_PRES; k++)
+        if (fmu_pre_of_states[k]) fmu_put(f, fmu_pre_slot[k], f->events[FMU_AT_PRES + k], &changed);
+    return changed;
+}
+
 static int fmu_triggers(fmu_instance *f) {
     int changed = 0;
     for (int k = 0; k < FMU_CONDITIONS;) {
@@ -283,8 +294,8 @@ static int fmu_iterate(fmu_instance *f) {
             status = fmu_reinitialize(f);
             if (status != FMU_OK) return status;
         }
-        const int moved = fmu_lefts(f);
         fmu_remember(f);
+        const int moved = fmu_next_lefts(f, active);
         if (!active && !moved) return FMU_OK;
         fmu_release(f);
     }
@@ -451,11 +462,12 @@ static int fmu_hybrid_start(fmu_instance *f, const ac_given *given) {
     if (FMU_HYBRID == 0) return FMU_OK;
     fmu_event_values(f);
     int status = FMU_OK, ignored = 0;
-    if (fmu_active(f)) {
+    const int active = fmu_active(f);
+    if (active) {
         fmu_end(f);
         status = fmu_reinitialize(f);
     }
-    fmu_lefts(f);
+    fmu_next_lefts(f, active);
     fmu_release(f);
     if (FMU_INITIAL >= 0) fmu_put(f, FMU_INITIAL, 0.0, &ignored);
     fmu_event_values(f);
