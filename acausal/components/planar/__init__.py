@@ -68,6 +68,7 @@ from .wheels import DryFrictionBasedRolling as DryFrictionBasedRolling
 from .wheels import DryFrictionWheelJoint as DryFrictionWheelJoint
 from .wheels import IdealRolling as IdealRolling
 from .wheels import IdealWheelJoint as IdealWheelJoint
+from .wheels import PartialRolling as PartialRolling
 from .wheels import PartialSlippingWheel as PartialSlippingWheel
 from .wheels import PartialWheelJoint as PartialWheelJoint
 from .wheels import SlipBasedWheelJoint as SlipBasedWheelJoint

@@ -22,6 +22,10 @@ class PartialGearContact(PartialTwoFrames, partial=True):
     w_a: Variable = Variable(unit="rad/s", doc="angular velocity of gear a")
     w_b: Variable = Variable(unit="rad/s", doc="angular velocity of gear b")
     F_n: Variable = Variable(unit="N", doc="force between the teeth")
+    xmesh_a: Variable = Variable(unit="m", doc="way of the teeth of gear a through the mesh")
+    xmesh_b: Variable = Variable(unit="m", doc="way of the teeth of gear b")
+    v_mesh: Variable = Variable(unit="m/s", doc="velocity of the teeth through the mesh")
+    a_mesh: Variable = Variable(unit="m/s2", doc="their acceleration")
 
     @property
     def side(self) -> float:
@@ -36,7 +40,11 @@ class PartialGearContact(PartialTwoFrames, partial=True):
         yield self.w_gear * dot(s, s) == s[0] * der(s[1]) - s[1] * der(s[0])
         yield self.w_a == der(a.phi)
         yield self.w_b == der(b.phi)
-        yield (a.phi - self.phi_gear) * self.r_a + self.side * (b.phi - self.phi_gear) * self.r_b == 0
+        yield self.xmesh_a == (a.phi - self.phi_gear) * self.r_a
+        yield self.xmesh_b == -self.side * (b.phi - self.phi_gear) * self.r_b
+        yield self.xmesh_a == self.xmesh_b
+        yield self.v_mesh == der(self.xmesh_a)
+        yield self.a_mesh == der(self.v_mesh)
         yield a.t == self.F_n * self.r_a
         yield b.t == self.side * self.F_n * self.r_b
         yield a.fx == -sin(self.phi_gear) * self.F_n

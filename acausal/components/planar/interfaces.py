@@ -21,6 +21,7 @@ from acausal import (
     outer,
     sin,
     sqrt,
+    structural,
     vector,
 )
 from acausal import max as maximum
@@ -104,9 +105,11 @@ class PartialMass(Component, partial=True):
     frame_a: Frame = Frame()
     planarWorld: PlanarWorld = outer(PlanarWorld())
     enableGravity: bool = True
+    stateSelect: str = "default"
     m: Parameter = Parameter(1.0, unit="kg", min=0.0, doc="mass")
-    r: Vector = Vector(Variable(unit="m", doc="position"), size=2)
-    v: Vector = Vector(Variable(unit="m/s", doc="velocity"), size=2)
+    f: Vector = Vector(Variable(unit="N", doc="cut force at the frame"), size=2)
+    r: Vector = Vector(Variable(unit="m", state_select=structural("stateSelect"), doc="position"), size=2)
+    v: Vector = Vector(Variable(unit="m/s", state_select=structural("stateSelect"), doc="velocity"), size=2)
     a: Vector = Vector(Variable(unit="m/s2", doc="acceleration"), size=2)
 
     def equations(self) -> Equations:
@@ -115,9 +118,9 @@ class PartialMass(Component, partial=True):
         yield self.r == (frame.x, frame.y)
         yield self.v == der(self.r)
         yield self.a == der(self.v)
-        force = vector(frame.fx, frame.fy)
+        yield self.f == (frame.fx, frame.fy)
         weight = self.planarWorld.constantGravity * self.m
-        yield self.a * self.m == (force + weight if self.enableGravity else force)
+        yield self.a * self.m == (self.f + weight if self.enableGravity else self.f)
 
 
 class PartialLineForce(PartialTwoFrames, partial=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Equations, Parameter, Variable, Vector, assert_, conditional, der, dot, norm, vector
+from acausal import Equations, Parameter, Variable, Vector, assert_, conditional, der, dot, norm, structural, vector
 
 from .. import rotational, translational
 from .interfaces import PartialTwoFrames, between, resolve1
@@ -25,10 +25,13 @@ class Revolute(PartialTwoFrames):
     """
 
     useFlange: bool = False
+    stateSelect: str = "prefer"
     flange_a: rotational.Flange = conditional(rotational.Flange(), "useFlange")
     support: rotational.Flange = conditional(rotational.Flange(), "useFlange")
-    phi: Variable = Variable(unit="rad", state_select="prefer", doc="angle of frame b against frame a")
-    w: Variable = Variable(unit="rad/s", state_select="prefer", doc="angular velocity")
+    phi: Variable = Variable(
+        unit="rad", state_select=structural("stateSelect"), doc="angle of frame b against frame a"
+    )
+    w: Variable = Variable(unit="rad/s", state_select=structural("stateSelect"), doc="angular velocity")
     z: Variable = Variable(unit="rad/s2", doc="angular acceleration")
     t: Variable = Variable(unit="N*m", doc="torque that drives frame b")
 
@@ -82,21 +85,25 @@ class Prismatic(PartialPrismatic):
     """
 
     useFlange: bool = False
+    stateSelect: str = "prefer"
     flange_a: translational.Flange = conditional(translational.Flange(), "useFlange")
     support: translational.Flange = conditional(translational.Flange(), "useFlange")
-    s: Variable = Variable(unit="m", state_select="prefer", doc="distance of frame b from frame a")
-    v: Variable = Variable(unit="m/s", state_select="prefer", doc="velocity")
+    e0: Vector = Vector(Variable(unit="1", doc="direction of sliding in the world frame"), size=2)
+    r0: Vector = Vector(Variable(unit="m", doc="from frame a to frame b, in the world frame"), size=2)
+    s: Variable = Variable(unit="m", state_select=structural("stateSelect"), doc="distance of frame b from frame a")
+    v: Variable = Variable(unit="m/s", state_select=structural("stateSelect"), doc="velocity")
     a: Variable = Variable(unit="m/s2", doc="acceleration")
     f: Variable = Variable(unit="N", doc="force that drives frame b")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        e = self.direction()
+        yield self.e0 == self.direction()
+        yield self.r0 == self.e0 * self.s
         yield self.v == der(self.s)
         yield self.a == der(self.v)
         yield self.frame_a.phi == self.frame_b.phi
-        yield from self.held_together(e * self.s)
-        yield dot((self.frame_a.fx, self.frame_a.fy), e) == self.f
+        yield from self.held_together(self.r0)
+        yield dot((self.frame_a.fx, self.frame_a.fy), self.e0) == self.f
         if self.useFlange:
             yield self.flange_a.s == self.s
             yield self.flange_a.f == self.f

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from acausal import Component, Equations, Parameter, Variable, Vector, der
+from acausal import Component, Equations, Parameter, Variable, Vector, der, structural
 
 from .interfaces import Frame, PartialMass, PartialTwoFrames, resolve1
 
@@ -44,11 +44,13 @@ class FixedTranslation(PartialTwoFrames):
 
     _must_connect: ClassVar[tuple[str, ...]] = ()
     r: Vector = Vector(Parameter(unit="m", doc="position of frame b in frame a"), (1.0, 0.0), size=2)
+    r0: Vector = Vector(Variable(unit="m", doc="from frame a to frame b, in the world frame"), size=2)
 
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.frame_a.phi == self.frame_b.phi
-        yield from self.held_together(resolve1(self.frame_a, self.r))
+        yield self.r0 == resolve1(self.frame_a, self.r)
+        yield from self.held_together(self.r0)
 
 
 class FixedRotation(PartialTwoFrames):
@@ -83,8 +85,8 @@ class Body(PartialMass):
     """
 
     I: Parameter = Parameter(0.1, unit="kg*m2", min=0.0, doc="moment of inertia about the centre of gravity")  # noqa: E741
-    phi: Variable = Variable(unit="rad", doc="angle")
-    w: Variable = Variable(unit="rad/s", doc="angular velocity")
+    phi: Variable = Variable(unit="rad", state_select=structural("stateSelect"), doc="angle")
+    w: Variable = Variable(unit="rad/s", state_select=structural("stateSelect"), doc="angular velocity")
     z: Variable = Variable(unit="rad/s2", doc="angular acceleration")
 
     def equations(self) -> Equations:

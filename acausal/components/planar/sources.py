@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from acausal import Equations, Input, Parameter, Vector, abs, der, noevent, vector
+from acausal import Equations, Input, Parameter, Variable, Vector, abs, der, noevent, vector
 
 from .interfaces import Frame, PartialResolved, PartialTwoFrames
 
@@ -82,6 +82,7 @@ class QuadraticSpeedDependentForce(PartialResolved):
 
     _must_connect: ClassVar[tuple[str, ...]] = ("frame_b",)
     frame_b: Frame = Frame()
+    force: Vector = Vector(Variable(doc="forces in x and y [N], and torque [N.m], that act"))
     F_nominal: Parameter = Parameter(0.0, unit="N", doc="force at v_nominal, braking where negative")
     v_nominal: Parameter = Parameter(1.0, unit="m/s", min=1e-15, doc="nominal speed")
     tau_nominal: Parameter = Parameter(0.0, unit="N*m", doc="torque at w_nominal, braking where negative")
@@ -92,6 +93,6 @@ class QuadraticSpeedDependentForce(PartialResolved):
         frame = self.frame_b
         v, w = self.from_world(vector(der(frame.x), der(frame.y))), der(frame.phi)
         x, y = (self.F_nominal / self.v_nominal**2 * noevent(abs(u)) * u for u in v)
-        f = self.to_world(vector(x, y))
-        yield vector(frame.fx, frame.fy) == -f
-        yield frame.t == -self.tau_nominal / self.w_nominal**2 * noevent(abs(w)) * w
+        yield self.force == (x, y, self.tau_nominal / self.w_nominal**2 * noevent(abs(w)) * w)
+        f = self.to_world(vector(self.force[0], self.force[1]))
+        yield vector(frame.fx, frame.fy, frame.t) == (-f[0], -f[1], -self.force[2])

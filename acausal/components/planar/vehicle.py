@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from acausal import Component, Equations, Parameter, Variable, Vector, connect, der, dot, noevent, norm, vector, where
+from acausal import Component, Equations, Parameter, Variable, Vector, connect, der, noevent, norm, vector, where
 
 from .. import rotational
 from .interfaces import Frame, resolve1
@@ -36,9 +36,9 @@ class DifferentialGear(Component):
 
 
 class AirResistanceLongitudinal(Component):
-    """Drag along the driving direction `r` of a vehicle that drives forward, ``fDrag = c_W area rho/2 v^2``.
+    """Drag along the driving direction `r` of a vehicle, ``f_long = fDrag = c_W area rho/2 vAir[1]^2``.
 
-    There is none where it drives backward.
+    There is none, ``f_long = 0``, where it drives backward.
 
     >>> model = assemble("air.frame_a - car.frame_a", planarWorld=ac.inner(PlanarWorld(constantGravity=(0.0, 0.0))),
     ...                  air=AirResistanceLongitudinal(c_W=0.5, area=2.0, rho=1.2),
@@ -58,15 +58,17 @@ class AirResistanceLongitudinal(Component):
     r: Vector = Vector(
         Parameter(unit="m", doc="driving direction in the frame, of any length but zero"), (1.0, 0.0), size=2
     )
-    v_long: Variable = Variable(unit="m/s", doc="velocity along the driving direction")
-    fDrag: Variable = Variable(unit="N", doc="drag")
+    vAir: Vector = Vector(Variable(unit="m/s", doc="velocity of the air, along `r` and across"), size=2)
+    fDrag: Variable = Variable(unit="N", doc="drag at this speed forward")
+    f_long: Variable = Variable(unit="N", doc="drag, zero where the vehicle drives backward")
 
     def equations(self) -> Equations:
         yield from super().equations()
         frame = self.frame_a
         e = resolve1(frame, self.r / norm(self.r))
-        yield self.v_long == dot((der(frame.x), der(frame.y)), e)
-        forward = noevent(where(self.v_long > 0, self.v_long, 0.0))
-        yield self.fDrag == self.c_W * self.area * self.rho / 2 * forward**2
-        yield vector(frame.fx, frame.fy) == e * self.fDrag
+        v_x, v_y = der(frame.x), der(frame.y)
+        yield self.vAir == (-v_x * e[0] - v_y * e[1], v_x * e[1] - v_y * e[0])
+        yield self.fDrag == self.c_W * self.area * self.rho / 2 * self.vAir[0] ** 2
+        yield self.f_long == noevent(where(self.vAir[0] < 0, self.fDrag, 0.0))
+        yield vector(frame.fx, frame.fy) == e * self.f_long
         yield frame.t == 0

@@ -17,6 +17,7 @@ from acausal import (
     noevent,
     norm,
     sqrt,
+    structural,
 )
 from acausal import max as maximum
 
@@ -24,7 +25,34 @@ from .. import rotational, thermal
 from .interfaces import Frame, resolve1
 
 
-class IdealRolling(Component):
+class PartialRolling(Component, partial=True):
+    """A wheel in the plane on the x axis: its hub, the frame, is at ``y = R``.
+
+    Source: the common part of PlanarMechanics.Joints.IdealRolling and DryFrictionBasedRolling.
+    """
+
+    stateSelect: str = "default"
+    frame_a: Frame = Frame()
+    R: Parameter = Parameter(1.0, unit="m", min=1e-30, doc="radius")
+    x: Variable = Variable(unit="m", state_select=structural("stateSelect"), doc="position of the hub")
+    vx: Variable = Variable(unit="m/s", doc="velocity of the hub")
+    phi: Variable = Variable(unit="rad", state_select=structural("stateSelect"), doc="angle of the wheel")
+    w: Variable = Variable(unit="rad/s", state_select=structural("stateSelect"), doc="its angular velocity")
+    z: Variable = Variable(unit="rad/s2", doc="its angular acceleration")
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        frame = self.frame_a
+        yield self.x == frame.x
+        yield self.phi == frame.phi
+        yield self.vx == der(self.x)
+        yield self.w == der(self.phi)
+        yield self.z == der(self.w)
+        yield frame.y == self.R
+        yield frame.t == self.R * frame.fx
+
+
+class IdealRolling(PartialRolling):
     """A wheel in the plane rolls on the x axis: its hub, the frame, is at ``y = R``, and ``dx/dt = -R dphi/dt``.
 
     The ground holds it with whatever force that takes, in x by friction and in y either way.
@@ -38,14 +66,9 @@ class IdealRolling(Component):
     Source: PlanarMechanics.Joints.IdealRolling.
     """
 
-    frame_a: Frame = Frame()
-    R: Parameter = Parameter(0.5, unit="m", min=1e-30, doc="radius")
-
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.frame_a.y == self.R
-        yield der(self.frame_a.x) == -self.R * der(self.frame_a.phi)
-        yield self.frame_a.t == self.R * self.frame_a.fx
+        yield self.vx == -self.w * self.R
 
 
 class PartialWheelJoint(Component, partial=True):
@@ -56,13 +79,19 @@ class PartialWheelJoint(Component, partial=True):
     Source: PlanarMechanics.VehicleComponents.Wheels.BaseClasses.WheelBase.
     """
 
+    stateSelect: str = "default"
     frame_a: Frame = Frame()
     flange_a: rotational.Flange = rotational.Flange()
     radius: Parameter = Parameter(0.3, unit="m", min=1e-30, doc="radius of the wheel")
     r: Vector = Vector(
         Parameter(unit="m", doc="driving direction in the frame, of any length but zero"), (1.0, 0.0), size=2
     )
-    w_roll: Variable = Variable(unit="rad/s", doc="angular velocity of rolling")
+    e0: Vector = Vector(Variable(unit="1", doc="driving direction in the world frame"), size=2)
+    v: Vector = Vector(Variable(unit="m/s", doc="velocity"), size=2)
+    phi_roll: Variable = Variable(unit="rad", doc="angle of rolling")
+    w_roll: Variable = Variable(
+        unit="rad/s", state_select=structural("stateSelect"), doc="angular velocity of rolling"
+    )
     v_long: Variable = Variable(unit="m/s", doc="velocity along the driving direction")
     v_lat: Variable = Variable(unit="m/s", doc="velocity across it, to the left")
     f_long: Variable = Variable(unit="N", doc="force of the frame on the wheel along the driving direction")
@@ -71,9 +100,11 @@ class PartialWheelJoint(Component, partial=True):
     def equations(self) -> Equations:
         yield from super().equations()
         frame = self.frame_a
-        e = resolve1(frame, self.r / norm(self.r))
-        v = (der(frame.x), der(frame.y))
-        yield self.w_roll == der(self.flange_a.phi)
+        e, v = self.e0, self.v
+        yield e == resolve1(frame, self.r / norm(self.r))
+        yield v == (der(frame.x), der(frame.y))
+        yield self.phi_roll == self.flange_a.phi
+        yield self.w_roll == der(self.phi_roll)
         yield self.v_long == dot(v, e)
         yield self.v_lat == v[1] * e[0] - v[0] * e[1]
         yield self.f_long == dot((frame.fx, frame.fy), e)
@@ -97,10 +128,13 @@ class IdealWheelJoint(PartialWheelJoint):
     Source: PlanarMechanics.VehicleComponents.Wheels.IdealWheelJoint.
     """
 
+    a: Variable = Variable(unit="m/s2", doc="acceleration along the driving direction, of v_long")
+
     def equations(self) -> Equations:
         yield from super().equations()
         yield self.v_lat == 0
         yield self.v_long == self.radius * self.w_roll
+        yield self.a == der(self.v_long)
 
 
 def slip_curve(v: Expr, v_adhesion: Expr, v_slide: Expr, most: Expr, sliding: Expr) -> Expr:
@@ -203,7 +237,7 @@ class SlipBasedWheelJoint(PartialSlippingWheel):
         yield self.f == self.fN * slip_curve(self.v_slip, self.vAdhesion, self.vSlide, self.mu_A, self.mu_S)
 
 
-class DryFrictionBasedRolling(thermal.PartialConditionalHeatPort, Component):
+class DryFrictionBasedRolling(thermal.PartialConditionalHeatPort, PartialRolling):
     """A wheel in the plane rolls and slips on the x axis: its hub, the frame, is at ``y = R``.
 
     The friction in x is against the slip ``v_slip = dx/dt + R dphi/dt``, in proportion to the normal force ``N =
@@ -220,8 +254,6 @@ class DryFrictionBasedRolling(thermal.PartialConditionalHeatPort, Component):
     Source: PlanarMechanics.Joints.DryFrictionBasedRolling.
     """
 
-    frame_a: Frame = Frame()
-    R: Parameter = Parameter(1.0, unit="m", min=1e-30, doc="radius")
     vAdhesion: Parameter = Parameter(0.1, unit="m/s", min=1e-12, doc="slip velocity of the largest friction")
     vSlide: Parameter = Parameter(0.3, unit="m/s", min=1e-12, doc="slip velocity from which on it slides")
     mu_A: Parameter = Parameter(0.8, unit="1", min=0.0, doc="friction coefficient at adhesion, the largest")
@@ -232,9 +264,7 @@ class DryFrictionBasedRolling(thermal.PartialConditionalHeatPort, Component):
     def equations(self) -> Equations:
         yield from super().equations()
         frame = self.frame_a
-        yield frame.y == self.R
-        yield self.v_slip == der(frame.x) + self.R * der(frame.phi)
+        yield self.v_slip == self.vx + self.w * self.R
         yield self.N == -frame.fy
         yield frame.fx == self.N * slip_curve(self.v_slip, self.vAdhesion, self.vSlide, self.mu_A, self.mu_S)
-        yield frame.t == self.R * frame.fx
         yield self.lossPower == frame.fx * self.v_slip
