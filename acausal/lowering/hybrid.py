@@ -18,12 +18,13 @@ from ..passes.reinits import states_by_choice
 from ..passes.schedule import Group, Schedule
 from ..passes.specialize import specialize
 from ..symbolic.expr import ONE, Expr, add, neg
-from ..symbolic.traverse import evaluate_in_order, leaves, postorder
+from ..symbolic.straight import Straight, straight
+from ..symbolic.traverse import leaves, postorder
 
 Values = Floats
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Piece:
     """Expressions over the rows of a family.
 
@@ -41,6 +42,13 @@ class Piece:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "order", postorder(self.forms))
+
+    @cached_property
+    def program(self) -> tuple[Straight, list[Ints], list[Ints]]:
+        """The expressions as a function, and the rows of its variables and parameters by column."""
+        rows = self.rows
+        columns = [list(np.ascontiguousarray(table.T)) for table in (rows.var_rows, rows.par_rows)]
+        return straight(self.order, self.forms), columns[0], columns[1]
 
     def values(self, point: Point) -> list[Any]:
         """Values of all forms at a point, each (n,)."""
@@ -215,6 +223,15 @@ class Hybrid:
         relations = np.concatenate([np.zeros(0, np.int64), *(piece.slots for piece in self.relations)])
         return frozenset(np.setdiff1d(relations, used).tolist())
 
+    @cached_property
+    def moving_conditions(self) -> tuple[list[Piece], Ints, Bools]:
+        """The relations that do not follow discrete quantities; of their rows the slots, and whether each is strict."""
+        found = list(self.conditions(following=False))
+        pieces = [piece for piece, _ in found]
+        slots = np.concatenate([np.zeros(0, np.int64), *(piece.slots for piece in pieces)])
+        strict = np.concatenate([np.zeros(0, bool), *(np.full(piece.rows.size, s) for piece, s in found)])
+        return pieces, slots, strict
+
     def conditions(self, *, following: bool) -> Iterator[tuple[Piece, bool]]:
         """The relations that follow discrete quantities, or the others; and whether each is strict."""
         for piece, strict, follows in zip(self.relations, self.strict, self.following, strict=True):
@@ -257,18 +274,9 @@ class Point:
 
     def evaluate(self, piece: Piece) -> list[Any]:
         """Values of its expressions, each a number or (n,)."""
-        rows, values = piece.rows, dict[int, Any]()
-
-        def leaf(node: Expr) -> Any:
-            if node.op == "time":
-                return self.t
-            if node.op == "par":
-                return self.p[rows.par_rows[:, node.value]]
-            return self.v[rows.var_rows[:, node.value]]
-
+        function, variables, parameters = piece.program
         with np.errstate(all="ignore"):
-            evaluate_in_order(piece.order, leaf, np, values)
-        return [values[id(form)] for form in piece.forms]
+            return function(self.t, self.v, self.p, variables, parameters)
 
 
 def make_hybrid(flat: FlatModel, representative: Ints, sign: Ints, schedule: Schedule) -> Hybrid | None:

@@ -69,18 +69,18 @@ class ModeSearch:
 
     def _modes(self, point: Point, p: Floats) -> list[int]:
         """Put the modes that follow from values that move into p; the slots that change."""
+        pieces, slots, strict = self.hybrid.moving_conditions
         changed: list[int] = []
-        for piece, strict in self.hybrid.conditions(following=False):
-            g = piece.values(point)[0]
+        if pieces:
+            g = np.concatenate([piece.values(point)[0] for piece in pieces])
             if self.rounding:
-                g = np.where(np.abs(g) <= self.rounding * self._scale(piece, point), 0.0, g)
-            new = ((g < 0.0) if strict else (g <= 0.0)).astype(float)
-            if self.forced:  # what was found to switch may still be on its old side by rounding
-                stays = _among(piece.slots, self.forced)
-                if stays.any():
-                    stays &= np.abs(g) <= NOISE * self._scale(piece, point)
-                    new[stays] = p[piece.slots[stays]]
-            changed += self._put(p, piece.slots, new)
+                g[np.abs(g) <= self.rounding * self._scales(pieces, point)] = 0.0
+            new = np.where(strict, g < 0.0, g <= 0.0).astype(float)
+            stays = _among(slots, self.forced) & (new != p[slots])
+            if stays.any():  # what was found to switch may still be on its old side by rounding
+                stays &= np.abs(g) <= NOISE * self._scales(pieces, point)
+                new[stays] = p[slots[stays]]
+            changed += self._put(p, slots, new)
         for piece in self.hybrid.floors:
             changed += self._put(p, piece.slots, self.hybrid.steps(piece, point))
         return changed
@@ -219,6 +219,9 @@ class ModeSearch:
                     return False
         kinds = self.hybrid.flat.slots.kinds
         return all(kinds[s - self.hybrid.first] == "relation" for s in changed)
+
+    def _scales(self, pieces: list[Piece], point: Point) -> Floats:
+        return np.concatenate([self._scale(piece, point) for piece in pieces])
 
     def _scale(self, piece: Piece, point: Point) -> Any:
         """Size of what is in a condition, or of its function at earlier events."""

@@ -114,7 +114,7 @@ def apply(node: Expr, args: list[Any], xp: Any) -> Any:
     """Value of one operator on its operands' values."""
     op = node.op
     if op in _ARITHMETIC:
-        args = [_number(a) for a in args]
+        args = [as_number(a) for a in args]
     if op == "add":
         return _sum(args)
     if op == "mul":
@@ -154,7 +154,7 @@ def _rooted(x: Any, root: Callable[[Any], Any], xp: Any) -> Any:
     return xp.where(foot, 0.0, root(xp.where(foot, 1.0, x)))
 
 
-def _number(value: Any) -> Any:
+def as_number(value: Any) -> Any:
     """A condition that is counted with is 1.0 or 0.0: truth values of arrays have no difference and no negative, and
     their sum is another truth value."""
     return value * 1.0 if getattr(value, "dtype", None) == np.bool_ else value
