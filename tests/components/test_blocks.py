@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from scipy import interpolate, signal
 
 import acausal as ac
-from acausal import Component
+from acausal import Component, Discrete, Equations, Variable, der, pre, when
 from acausal.components import blocks
 from acausal.components.blocks import discrete, math_boolean, math_integer
 from acausal.components.examples import assemble
@@ -457,3 +457,25 @@ def test_limits_that_contradict_each_other_are_errors() -> None:
                       control=control)  # fmt: skip
     with pytest.raises(ac.SimulationError, match=r"y_start, is not within its limits(.|\n)*y_start = 2"):
         ac.compile(beyond).simulate(t1=1.0)
+
+
+class Phases(Component):
+    """Periodic signals of which some phases take no time."""
+
+    steep: blocks.Trapezoid = blocks.Trapezoid(period=0.1, startTime=0.05, rising=0.0, width=0.04, falling=0.0)
+    none: blocks.Pulse = blocks.Pulse(period=0.1, startTime=-7 / 30, width=0.0)
+    integral: Variable = Variable(start=0.0, fixed=True)
+    ups: Discrete = Discrete(start=0)
+    pulses: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield der(self.integral) == self.steep.y
+        yield when(self.steep.y > 0.5, {self.ups: pre(self.ups) + 1})
+        yield when(self.none.y > 0.5, {self.pulses: pre(self.pulses) + 1})
+
+
+def test_phases_of_no_length_are_not_seen_by_rounding() -> None:
+    run = ac.compile(Phases()).simulate(1.74, saveat=2001)
+    assert [run["ups"][-1], run["pulses"][-1]] == [17.0, 0.0]
+    assert run["integral"][-1] == pytest.approx(17 * 0.04, rel=1e-9)
+    assert set(run["steep.y"]) == {0.0, 1.0}

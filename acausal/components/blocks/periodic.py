@@ -19,9 +19,13 @@ class PartialPeriodic(SignalSource, partial=True):
     period: Parameter = Parameter(1.0, unit="s", min=1e-60, doc="time of one period")
 
     def elapsed(self) -> Expr:
-        """Time since the beginning of the present period [s]."""
+        """Time since the beginning of the present period [s], which may be negative by rounding."""
         t = ac.time - self.startTime
         return t - self.period * ac.floor(t / self.period)
+
+    def before(self, end: Expr) -> Expr:
+        """Whether the present period has not come to `end` yet; never where that is its beginning."""
+        return (self.elapsed() < end) & (end > 0.0)
 
     def repeated(self, shape: Expr) -> Equations:
         """The output: `shape` while it repeats, then the offset."""
@@ -44,7 +48,7 @@ class Pulse(PartialPeriodic):
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield from self.repeated(where(self.elapsed() < self.period * self.width / 100, self.amplitude, 0.0))
+        yield from self.repeated(where(self.before(self.period * self.width / 100), self.amplitude, 0.0))
 
 
 class SawTooth(PartialPeriodic):
@@ -81,5 +85,6 @@ class Trapezoid(PartialPeriodic):
         plateau, fall = self.rising + self.width, self.rising + self.width + self.falling
         rising = self.amplitude * t / ac.max(self.rising, 1e-300)
         falling = self.amplitude * (fall - t) / ac.max(self.falling, 1e-300)
-        level = where(t < plateau, self.amplitude, where(t < fall, falling, 0.0))
-        yield from self.repeated(where(t < self.rising, rising, level))
+        falls = self.before(fall) & (self.falling > 0.0)
+        level = where(self.before(plateau), self.amplitude, where(falls, falling, 0.0))
+        yield from self.repeated(where(self.before(self.rising), rising, level))
