@@ -44,8 +44,9 @@ def test_torques_are_what_drives(torque: Component) -> None:
 def test_an_exact_position_may_jump() -> None:
     """Nothing asks for its velocity: `w` and `a` are 0, and the reference is not differentiated."""
     model = assemble(
-        "step.y - lead.phi_ref", "lead.flange - spring.flange_a", "spring.flange_b - rotor.flange_a",
+        "step.y - lead.phi_ref", "lead.flange - spring.flange_a - load.flange", "spring.flange_b - rotor.flange_a",
         step=blocks.Step(startTime=0.5), lead=rotational.Position(exact=True), spring=rotational.Spring(c=4.0),
+        load=rotational.ConstantTorque(tau_constant=1.0),
         rotor=rotational.Inertia(J=1.0, phi=start(0.0, fixed=True), w=start(0.0, fixed=True)),
     )  # fmt: skip
     with warnings.catch_warnings():
@@ -119,7 +120,7 @@ def test_a_gear_tells_the_losses_of_both_directions() -> None:
     assert of("tau_bf_a") == pytest.approx([0.25 / (1 / 0.75 - 0.85)])
     tau, most, least = of("tau_a", "tauLossMax", "tauLossMin")
     assert most == pytest.approx(0.15 * tau + 0.35) and least == pytest.approx((1 - 1 / 0.75) * tau - 0.6)
-    assert of("tauLoss") == [most] and run["drive.w"][0] == 5.0
+    assert of("tauLoss") == [most]
 
 
 def test_a_gap_tells_whether_it_is_closed() -> None:

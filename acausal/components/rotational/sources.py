@@ -64,11 +64,9 @@ class ConstantTorque(PartialOneFlangeAndSupport):
 
     tau_constant: Parameter = Parameter(1.0, unit="N*m", doc="driving torque")
     tau: Variable = Variable(unit="N*m", doc="driving torque, -flange.tau")
-    w: Variable = Variable(unit="rad/s", doc="angular velocity of the flange relative to the support")
 
     def equations(self) -> Equations:
         yield from super().equations()
-        yield self.w == der(self.phi)
         yield self.tau == -self.flange.tau
         yield self.tau == self.tau_constant
 
