@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import warnings
+from typing import Any
 
+import jax
 import numpy as np
 import pytest
 
@@ -161,3 +163,18 @@ def test_a_detailed_amplifier_tells_the_currents_of_its_inputs() -> None:
     assert of["i_3"] == pytest.approx(9e-8 + 1.999 / 2e9) and of["i_4"] == pytest.approx(7e-8 + of["v_4"] / 2e9)
     assert of["p.i"] == of["i_vos"] and of["i_out"] == of["outp.i"] and of["q_sum_help"] == pytest.approx(of["q_sum"])
     assert of["i_r2"] == pytest.approx((of["v_3"] - of["v_4"]) / 2e6, abs=1e-15)
+
+
+@pytest.mark.slow
+def test_a_gap_has_derivatives_where_it_is_open() -> None:
+    """With an implicit method, that differentiates the force twice."""
+    ball = translational.PointMass(m=2.0, s=start(0.1, fixed=True), v=start(-1.0, fixed=True))
+    model = assemble("floor.flange - gap.flange_a", "gap.flange_b - ball.flange", floor=translational.Fixed(),
+                     gap=translational.ElastoGap(c=100.0), ball=ball)  # fmt: skip
+    system = ac.compile(model)
+
+    def s(c: Any, engine: Any) -> Any:
+        return system.simulate(t1=0.3, saveat=2, parameters={"gap.c": c}, engine=engine)["ball.s"][-1]
+
+    slopes = [float(jax.grad(s)(100.0, engine)) for engine in ("native", "diffrax")]
+    assert slopes[0] > 1e-4 and slopes[1] == pytest.approx(slopes[0], rel=1e-2)
