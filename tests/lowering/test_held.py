@@ -86,7 +86,7 @@ def test_given_values_make_conditions_of_neighbours(system: ac.System) -> None:
     """With them the Jacobian has a few entries in each row, without them a staircase; both have the same root."""
     problem, low = system.initial, system.lowered
     p = system.program.default
-    given = given_starts(problem, system.program.starts(p, np), {}, np)
+    given = given_starts(problem, system.program.starts(p, np), {}, p, np)
     conditions = Conditions(problem, 0.0, p, given.ids, given.wanted)
     found = system.initialize_numeric(0.0, None, None)
     assert found is not None

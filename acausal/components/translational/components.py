@@ -216,7 +216,8 @@ class ElastoGap(thermal.PartialConditionalHeatPort, PartialCompliantWithRelative
         yield from super().equations()
         gap = self.s_rel - self.s_rel0
         pressed = where(gap < 0, -gap / self.s_ref, 1.0)  # not 0, of which powers have no second derivative
-        yield self.f_c == where(gap < 0, -self.f_ref * pressed**self.n, 0.0)
+        # as it is at every moment: a step that the event is found in goes beyond it
+        yield self.f_c == ac.noevent(where(gap < 0, -self.f_ref * pressed**self.n, 0.0))
         yield self.contact == where(gap < 0, 1.0, 0.0)
         yield self.f_d2 == where(gap < 0, self.d * self.v_rel, 0.0)
         yield self.f_d == where(gap < 0, ac.noevent(ac.clip(self.f_d2, self.f_c, -self.f_c)), 0.0)
