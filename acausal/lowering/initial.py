@@ -243,8 +243,7 @@ def _without_contradictions(
     values = {int(v): wanted[i] for i, v in enumerate(ids)}
     values |= {v: x[i] for v, i in place.items() if fixed[i]}
     for step in chain:
-        value = step.value(values.__getitem__, p, xp)
-        values[step.target] = xp.nan if value is None else value
+        values[step.target] = step.value(values.__getitem__, p, xp)
         i = place.get(step.target)
         if i is not None:
             new = xp.where(xp.isfinite(values[step.target]), values[step.target], x[i])

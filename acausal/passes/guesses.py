@@ -8,18 +8,14 @@ default parameters; they decide which of several solutions is found, not what it
 
 from __future__ import annotations
 
-from collections import deque
 from typing import Any
 
 import numpy as np
 
 from ..language.flat_model import Bools, FlatModel
 from ..language.template import Floats
-from ..symbolic.expr import Expr, var
-from ..symbolic.isolate import Isolated, isolate
-from ..symbolic.traverse import evaluate
 from .aliases import Reduced
-from .implied import LARGEST, implied
+from .implied import LARGEST, Step, implied, propagate
 from .schedule import Schedule
 
 
@@ -77,8 +73,7 @@ def _take_what_counts(schedule: Schedule, aliases: Reduced, known: Floats, param
         chosen[aliases.representative[counts & (aliases.sign != 0)]] = True
         chosen &= ~np.isnan(known)
         for step in implied(schedule.reduced, chosen, schedule.states.tolist()):
-            value = step.value(lambda v: known[v], parameters, np)
-            known[step.target] = np.nan if value is None else value
+            known[step.target] = step.value(lambda v: known[v], parameters, np)
             chosen[step.target] = np.isfinite(known[step.target])
             if counts is modified and chosen[step.target] and of_class[step.target]:
                 flat.start[step.target] = known[step.target]
@@ -86,48 +81,11 @@ def _take_what_counts(schedule: Schedule, aliases: Reduced, known: Floats, param
 
 def _carry_over(reduced: Any, known: Floats, parameters: Floats) -> None:
     """Values from equations with one variable that has none, as long as there are such."""
-    rows = [reduced.rows.locate(row) for row in range(len(reduced.rows))]
-    columns = [family.var_rows[k] for family, k in rows]
-    users: dict[int, list[int]] = {}
-    missing: list[int] = []
-    for row, ids in enumerate(columns):
-        open_ones = {int(v) for v in ids if np.isnan(known[v])}
-        missing.append(len(open_ones))
-        for v in open_ones:
-            users.setdefault(v, []).append(row)
-    solved: dict[tuple[int, int], Isolated] = {}
-    queue = deque(row for row, count in enumerate(missing) if count == 1)
-    while queue:
-        row = queue.popleft()
-        family, k = rows[row]
-        slots = np.flatnonzero(np.isnan(known[columns[row]]))
-        if len(slots) != 1:
-            continue
-        key = id(family.residual), int(slots[0])
-        if key not in solved:
-            solved[key] = isolate(family.residual, var(int(slots[0])))
-        value = _value(solved[key].solution, known[columns[row]], parameters[family.par_rows[k]])
-        if not np.isfinite(value):
-            continue
-        target = int(columns[row][slots[0]])
-        known[target] = value
-        for user in users.get(target, ()):
-            missing[user] -= 1
-            if missing[user] == 1:
-                queue.append(user)
 
+    def take(step: Step) -> bool:
+        value = step.value(lambda v: known[v], parameters, np)
+        if np.isfinite(value):
+            known[step.target] = value
+        return bool(np.isfinite(value))
 
-def _value(solution: Expr | None, variables: Floats, parameters: Floats) -> float:
-    if solution is None:
-        return np.nan
-
-    def leaf(node: Expr) -> float:
-        if node.op in ("var", "par"):
-            return float((variables if node.op == "var" else parameters)[node.value])
-        return 0.0  # the time
-
-    with np.errstate(all="ignore"):
-        try:
-            return float(evaluate((solution,), leaf, np)[0])
-        except ZeroDivisionError:
-            return np.nan
+    propagate([reduced.rows.locate(row) for row in range(len(reduced.rows))], ~np.isnan(known), take)

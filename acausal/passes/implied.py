@@ -42,7 +42,7 @@ class Step:
     parameters: Ints
 
     def value(self, values: Callable[[int], Any], p: Any, xp: Any) -> Any:
-        """Its value; not finite, or None, where its equation cannot be solved for it there.
+        """Its value, with a time of zero; not finite where its equation cannot be solved for it there.
 
         Args:
             values: those of variables.
@@ -51,13 +51,15 @@ class Step:
         """
 
         def leaf(node: Expr) -> Any:
+            if node.op == "time":
+                return 0.0
             return values(int(self.variables[node.value])) if node.op == "var" else p[self.parameters[node.value]]
 
         with np.errstate(all="ignore"):
             try:
                 return evaluate((self.solution,), leaf, xp)[0]
             except ZeroDivisionError:
-                return None
+                return np.nan
 
 
 def implied(reduced: IndexReduced, fixed: Bools, states: Sequence[int]) -> list[Step]:
@@ -89,6 +91,24 @@ def _follow(reduced: IndexReduced, known: Bools) -> list[Step]:
         (family, k) for i, family in enumerate(reduced.families) if constant[i] for k in range(family.size)
         if (family.par_rows[k] < reduced.flat.n_par).all()  # no inputs, nothing that events change
     ]  # fmt: skip
+    steps: list[Step] = []
+
+    def take(step: Step) -> bool:
+        steps.append(step)
+        return True
+
+    propagate(rows, known, take)
+    return steps
+
+
+def propagate(rows: Sequence[tuple[Family, int]], known: Bools, take: Callable[[Step], bool]) -> None:
+    """Follow equations with one variable that is not known, as long as there are such.
+
+    Args:
+        rows: equations, as families and their rows.
+        known: mask of the variables, which is completed.
+        take: called with what follows; whether it counts as known.
+    """
     users: dict[int, list[int]] = {}
     missing: list[int] = []
     for row, (family, k) in enumerate(rows):
@@ -98,7 +118,6 @@ def _follow(reduced: IndexReduced, known: Bools) -> list[Step]:
             users.setdefault(v, []).append(row)
     solved: dict[tuple[int, int], Isolated] = {}
     queue = deque(row for row, count in enumerate(missing) if count == 1)
-    steps: list[Step] = []
     while queue:
         family, k = rows[queue.popleft()]
         slots = np.flatnonzero(~known[family.var_rows[k]])
@@ -107,17 +126,14 @@ def _follow(reduced: IndexReduced, known: Bools) -> list[Step]:
         key = id(family.residual), int(slots[0])
         if key not in solved:
             solved[key] = isolate(family.residual, var(int(slots[0])))
-        solution = solved[key].solution
-        if solution is None:
+        solution, target = solved[key].solution, int(family.var_rows[k, slots[0]])
+        if solution is None or not take(Step(target, solution, family.var_rows[k], family.par_rows[k])):
             continue
-        target = int(family.var_rows[k, slots[0]])
         known[target] = True
-        steps.append(Step(target, solution, family.var_rows[k], family.par_rows[k]))
         for user in users.get(target, ()):
             missing[user] -= 1
             if missing[user] == 1:
                 queue.append(user)
-    return steps
 
 
 def _is_constant(family: Family) -> bool:

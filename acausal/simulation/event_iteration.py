@@ -21,8 +21,8 @@ from acausal.passes.impulses import driven_states
 
 from .mode_search import NOISE, TURNS, Equations, ModeSearch
 from .native_library import Floats
+from .scan import EPS
 
-EPS = float(np.finfo(float).eps)
 JUMPS = 1e-5
 """Equations whose sides differ by more than this, relative to what is in them, jump at an event."""
 ROUNDING = 1e-13
