@@ -30,7 +30,7 @@ def vanishing_divisor(index: IndexReduced, p: Floats, t: float, t1: float) -> li
             continue
         for factor in _divisors(family.residual):
             rate = differentiate((factor,), lambda leaf: ONE if leaf.op == "time" else ZERO)[0]
-            for row in family.par_rows:
+            for k, row in enumerate(family.par_rows):
 
                 def leaf(node: Expr, row: Ints = row) -> np.float64:
                     return np.float64(t if node.op == "time" else p[row[node.value]])
@@ -39,7 +39,7 @@ def vanishing_divisor(index: IndexReduced, p: Floats, t: float, t1: float) -> li
                     value, slope = (float(v) for v in evaluate((factor, rate), leaf, np))
                     ahead = np.float64(-value) / slope
                 if abs(ahead) <= NEAR * max(abs(t1 - t), abs(t)):
-                    text = index.flat.equation_text(family, 0, factor)
+                    text = index.flat.equation_text(family, k, factor)
                     return [
                         f"Index reduction has combined equations and divides by `{text}`, which is zero at t = "
                         f"{t + ahead:.6g} s. If the equations have a solution there, write them so that what stands in "
