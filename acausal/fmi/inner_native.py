@@ -33,7 +33,7 @@ class NativeInner:
         outputs: Sequence[int], derivatives: Sequence[tuple[int, int]], n_inputs: int,
     ) -> None:  # fmt: skip
         self.model = native_model(system)
-        self.library = self.model.library()
+        self.library = self.model.library(method)
         self.lowered, self.places, self.n_inputs = system.lowered, places, n_inputs
         how = tolerances(system, rtol, atol, dt, MAX_STEPS)
         self.rtol, self.atol, self.dt = how.rtol, how.atol, 0.0 if dt is None else dt

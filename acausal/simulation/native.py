@@ -14,7 +14,7 @@ import numpy as np
 
 from acausal.errors import InitializationError
 from acausal.lowering.bounds import check_parameters
-from acausal.lowering.c.generate import CSource, to_c
+from acausal.lowering.c.generate import EXPLICIT, TANGENTS, CSource, to_c
 from acausal.lowering.initial import SATISFIED, given_starts
 from acausal.lowering.initial_numeric import solve_numeric
 from acausal.symbolic.traverse import postorder
@@ -64,19 +64,27 @@ class NativeModel:
 
     system: Any
     source: CSource
-    libraries: dict[int, NativeLibrary] = field(default_factory=dict[int, NativeLibrary])
+    libraries: dict[tuple[int, bool], NativeLibrary] = field(default_factory=dict[tuple[int, bool], NativeLibrary])
     lock: Any = field(default_factory=threading.Lock)
 
-    def library(self, width: int = 0) -> NativeLibrary:
-        """The library with tangents in `width` directions; 0 is without."""
+    def library(self, method: str = METHODS[0], width: int = 0) -> NativeLibrary:
+        """The library with a method, and with tangents in `width` directions; 0 is without."""
+        explicit = method != METHODS[0]
         with self.lock:
-            if width not in self.libraries:
-                defines = ("AC_TANGENTS", f"AC_LANES={width}") if width else ()
+            key = width, explicit
+            if key not in self.libraries:
+                defines = (TANGENTS, f"AC_LANES={width}") if width else ()
+                made = build(self.source, (*defines, EXPLICIT) if explicit else defines)
                 low = self.system.lowered
                 nominal = np.concatenate([low.x_nominal, low.w_nominal])
-                made = build(self.source, defines)
-                self.libraries[width] = NativeLibrary(made, bool(width), self.source.tables, nominal)
-            return self.libraries[width]
+                self.libraries[key] = NativeLibrary(made, bool(width), self.source.tables, nominal)
+            return self.libraries[key]
+
+    def _any_library(self) -> NativeLibrary:
+        """One that is there, for what all have in common."""
+        with self.lock:
+            found = next(iter(self.libraries.values()), None)
+        return found or self.library()
 
     # ---- start ------------------------------------------------------------------------------------
     def start(self, t0: float, given: Given, library: NativeLibrary, check: bool = True) -> Started:
@@ -134,7 +142,7 @@ class NativeModel:
         self, t0: float, t1: float, save: Floats, given: Given, how: Tolerances, check: bool = True
     ) -> tuple[Started, Run | HybridRun]:
         """Start and integrate."""
-        library = self.library()
+        library = self.library(how.method)
         started = self.start(t0, given, library, check)
         if started.iteration is not None:
             return started, self._run_events(library, started, t0, t1, save, given, how)
@@ -180,7 +188,7 @@ class NativeModel:
         In a run with events those of the slots follow those of z.
         """
         width = next((w for w in WIDTHS if w >= len(seeds)), WIDTHS[-1])
-        library = self.library(width)
+        library = self.library(how.method, width)
         started = self.start(t0, given, library, check)
         slopes: list[Floats] = []
         p_slopes: list[Floats] = []
@@ -238,15 +246,16 @@ class NativeModel:
         self, t: Floats, z: Floats, p: Floats, signals: Sequence[Signal], slots: Floats | None = None
     ) -> Floats:
         """All variables of the reduced model, (n_t, n_ids); `slots` (n_t, n_slots) are those of a run with events."""
+        library = self._any_library()
         if slots is None:
-            return self.library().observe(p, signals, t, z)
+            return library.observe(p, signals, t, z)
         values = np.empty((len(t), self.system.lowered.n_ids))
         cuts = np.flatnonzero((slots[1:] != slots[:-1]).any(axis=1)) + 1
         for a, b in zip([0, *cuts.tolist()], [*cuts.tolist(), len(t)], strict=True):
             if b > a:
                 at = p.copy()
                 at[self.system.hybrid.slots] = slots[a]
-                values[a:b] = self.library().observe(at, signals, t[a:b], z[a:b])
+                values[a:b] = library.observe(at, signals, t[a:b], z[a:b])
         return values
 
 

@@ -6,6 +6,7 @@ import functools
 import hashlib
 import os
 import platform
+import shlex
 import shutil
 import subprocess
 import sys
@@ -17,6 +18,11 @@ from acausal.lowering.c.generate import CSource
 
 FLAGS = ("-O2", "-fno-math-errno", "-fno-trapping-math", "-ffp-contract=fast", "-fvisibility=hidden")
 """No flag that changes results beyond rounding: infinities and what is not a number behave as in Python."""
+
+
+def flags() -> tuple[str, ...]:
+    """Options for a compiler of this machine: `FLAGS`, then what ``$ACAUSAL_CFLAGS`` says."""
+    return *FLAGS, *shlex.split(os.environ.get("ACAUSAL_CFLAGS", ""))
 
 
 class NoCompiler(AcausalError):
@@ -88,7 +94,7 @@ def build(source: CSource, defines: tuple[str, ...] = ()) -> Path:
     """
     command = compiler()
     native = () if "ziglang" in command else ("-march=native",) if platform.machine() in _MARCH else ()
-    options = (*FLAGS, *native, *(f"-D{d}" for d in defines))
+    options = (*native, *flags(), *(f"-D{d}" for d in defines))
     key = hashlib.sha256(
         "\0".join([source.text, *source.runtime.values(), *command, *options, _machine()]).encode()
     ).hexdigest()[:32]

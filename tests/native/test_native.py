@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import jax
@@ -10,9 +11,10 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal import SimulationError
+from acausal import AcausalError, SimulationError
 from acausal.simulation import engines, native
 from acausal.simulation.native import native_model
+from acausal.simulation.native_build import flags
 
 from .models import Balanced, Branches, Carried, Damped, Decay, Driven, Free, LinearBlock, Pendulum, Torn
 
@@ -332,3 +334,22 @@ class NoNumber(ac.Component):
 def test_what_is_no_number_is_no_solution(solver: str) -> None:
     with pytest.raises(SimulationError, match=r"der\(x\) is nan there"):
         ac.compile(NoNumber()).simulate(1.0, engine="native", solver=solver)
+
+
+def test_own_options_for_the_compiler(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("ACAUSAL_CACHE", str(tmp_path))
+    monkeypatch.setenv("ACAUSAL_CFLAGS", "-O0 '-DAC_NO SPACE'")
+    assert flags()[-2:] == ("-O0", "-DAC_NO SPACE")
+    monkeypatch.setenv("ACAUSAL_CFLAGS", "-no-such-option")
+    with pytest.raises(AcausalError, match="-no-such-option"):
+        ac.compile(Branches()).simulate(t1=0.1)
+
+
+def test_explicit_methods_are_compiled_when_they_are_asked_for(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("ACAUSAL_CACHE", str(tmp_path))
+    system = ac.compile(Branches())
+    system.simulate(t1=0.1)
+    assert len(list(tmp_path.glob("*"))) == 1
+    for method in ("adams", "adams", "rodas5p"):
+        system.simulate(t1=0.1, solver=method)
+    assert len(list(tmp_path.glob("*"))) == 2

@@ -10,7 +10,7 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from ...simulation.native_build import FLAGS, compiler
+from ...simulation.native_build import FLAGS, compiler, flags
 from .variables import ExportError
 
 TARGETS = {
@@ -60,13 +60,14 @@ def library(sources: Mapping[str, str], main: str, target: str) -> bytes:
         NoCompiler: there is no compiler on this machine.
         ExportError: no cross compiler, or the compiler failed.
     """
-    command = compiler() if target == this_platform() else _cross(target)
+    here = target == this_platform()
+    command = compiler() if here else _cross(target)
     with tempfile.TemporaryDirectory(prefix="acausal-fmu-") as folder:
         place = Path(folder)
         for name, text in sources.items():
             (place / name).write_text(text, encoding="utf-8")
         out = place / f"model{SUFFIX[target.split('-')[1]]}"
-        options = [*FLAGS, *WARNINGS, "-shared", *([] if "windows" in target else ["-fPIC"])]
+        options = [*(flags() if here else FLAGS), *WARNINGS, "-shared", *([] if "windows" in target else ["-fPIC"])]
         made = subprocess.run(
             [*command, *options, "-I", folder, "-o", str(out), str(place / main), "-lm"],
             capture_output=True, text=True, check=False,

@@ -73,7 +73,7 @@ def export(
     if len(set(places)) < len(places):
         raise ExportError(f"FMI {version} has one name for two of the platforms {', '.join(targets)}")
     table = collect(system, version)
-    code = equations(system) + tables(system, table, kinds, solver, dt)
+    code = equations(system, solver) + tables(system, table, kinds, solver, dt)
     fixed = fixed_files(version)
     main = f"fmi{version[0]}.c"
     description = Description(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...lowering.c.generate import runtime_files, to_c
+from ...lowering.c.generate import EXPLICIT, runtime_files, to_c
 from ...lowering.c.text import array
 from ...lowering.initial import EASE_ALGEBRAIC
 from .events import event_families, event_tables
@@ -26,8 +26,8 @@ SOLVERS = ("rodas5p", "rk4", "adams")
 """Methods of co-simulation; the position is the number in ``instance.h``."""
 
 
-def equations(system: System) -> str:
-    """The equations in C, with tangents of all variables.
+def equations(system: System, solver: str) -> str:
+    """The equations in C, with tangents of all variables, and the method.
 
     Raises:
         ExportError: the model is too large to be written out.
@@ -48,7 +48,8 @@ def equations(system: System) -> str:
 
     hybrid = system.statements
     further = {"ac_event_values": event_families(hybrid)}
-    return to_c(system.program, system.initial, label, hybrid=hybrid, further=further, observe_tangent=True).text
+    made = to_c(system.program, system.initial, label, hybrid=hybrid, further=further, observe_tangent=True)
+    return made.text if solver == SOLVERS[0] else f"#define {EXPLICIT}\n{made.text}"
 
 
 def tables(

@@ -34,6 +34,9 @@ RUNTIME = (
     "projection.h", "conserved.h", "families.h", "initialize.h", "start.h",
 )  # fmt: skip
 TANGENTS = "AC_TANGENTS"
+"""Macro that asks for tangents."""
+EXPLICIT = "AC_EXPLICIT"
+"""Macro that asks for the explicit methods."""
 DENSE = 4_000_000
 """Numbers in the matrices of the projection, which are dense, up to which the native engine takes a large system."""
 

@@ -4,6 +4,7 @@
      AC_N, AC_NX, AC_NZ (nonzeros of J), AC_NF (numbers of the factors), AC_NC, AC_NU, AC_NG, AC_NK, AC_NKZ,
      ac_constants, ac_field, ac_field_jacobian, ac_factor, ac_solve, ac_nominal, ac_row, ac_column,
      and for tangents ac_constants_tangent, ac_field_tangent, ac_jacobian_tangent, ac_solve_vector.
+   AC_TANGENTS and AC_EXPLICIT ask for what takes a compiler long and few runs need: tangents, and explicit methods.
 
    Sources: Steinebach (2023), BIT Numerical Mathematics 63:27 (method); Hairer and Wanner, Solving Ordinary
    Differential Equations II, IV.7 (implementation) and IV.8 (step size); the tangents differentiate the step itself. */
@@ -14,7 +15,7 @@ enum { AC_DONE, AC_MAX_STEPS, AC_SMALLEST_STEP, AC_SINGULAR, AC_NO_MEMORY, AC_ST
 typedef struct {
     double t0, t1, rtol, first_step, smallest;
     const double *atol;            /* (n) absolute */
-    int method;                    /* AC_RODAS5P, AC_RK4 (fixed steps of first_step), AC_ADAMS */
+    int method;                    /* AC_RODAS5P; with AC_EXPLICIT also AC_RK4 (fixed steps of first_step) and AC_ADAMS */
     long max_steps;
     const double *z0, *p;
     const ac_signal *signals;
@@ -218,6 +219,7 @@ AC_DENSE_OUTPUT(ac_interpolate, double)
 #endif
 #include "stepping.h"
 #include "integrate.h"
+#ifdef AC_EXPLICIT
 #include "explicit.h"
 
 static int ac_explicit(ac_problem *q, ac_work *w) {
@@ -227,10 +229,14 @@ static int ac_explicit(ac_problem *q, ac_work *w) {
     free(e);
     return result;
 }
+#endif
 
 /* To the end of the run or the first event. */
 static int ac_stretch(ac_problem *q, ac_work *w, ac_control *k, void *tangents) {
-    return q->method == AC_RODAS5P ? ac_integrate(q, w, k, tangents) : ac_explicit(q, w);
+#ifdef AC_EXPLICIT
+    if (q->method != AC_RODAS5P) return ac_explicit(q, w);
+#endif
+    return ac_integrate(q, w, k, tangents);
 }
 
 AC_EXPORT long acausal_size(int which) {
