@@ -3,4 +3,4 @@
 import os
 
 # Nearly every test compiles a model of its own and runs it for a moment.
-os.environ.setdefault("ACAUSAL_CFLAGS", "-O1")
+os.environ.setdefault("ACAUSAL_CFLAGS", "-Og")

@@ -23,7 +23,7 @@ class SignalExtrema(PartialExtrema):
     """Smallest and largest value of the samples every `Ts` [s].
 
     >>> model = assemble("wave.y - seen.u", wave=Sine(f=1.0), seen=SignalExtrema(Ts=0.125))
-    >>> result = run(model, at=[0.0, 0.2, 0.6, 1.0])
+    >>> result = run(model, at=[0.0, 0.2, 0.4, 1.0])
     >>> close(result["seen.y_max"], [0.0, np.sqrt(0.5), 1.0, 1.0]), result["seen.t_min"]
     (True, [0.0, 0.0, 0.0, 0.75])
 
