@@ -19,7 +19,7 @@ from ..language.declarations import Kind
 from ..language.flat_model import Family, FlatModel, Slots, canonical
 from ..language.template import Ints
 from ..symbolic.expr import ONE, ZERO, Expr, add, const, div, intern_node, make, mul, neg, par
-from ..symbolic.traverse import leaves, postorder
+from ..symbolic.traverse import leaves, postorder, rewrite_located
 
 COMPARISONS = frozenset({"lt", "le", "gt", "ge"})
 HYBRID = COMPARISONS | {
@@ -120,19 +120,7 @@ class _Rows:
 
     def rewrite(self, root: Expr) -> Expr:
         """Bottom up; below `noevent` comparisons stay."""
-        pending = [(root, self.work.located, False)]
-        while pending:
-            node, located, ready = pending.pop()
-            if (id(node), located) in self.memo:
-                continue
-            below = located and node.op != "noevent"
-            if node.args and not ready:
-                pending.append((node, located, True))
-                pending.extend((a, below, False) for a in node.args)
-                continue
-            args = tuple(self.memo[id(a), below] for a in node.args)
-            self.memo[id(node), located] = self._replaced(node, args, located)
-        return self.memo[id(root), self.work.located]
+        return rewrite_located(root, self._replaced, self.work.located, self.memo)
 
     def _replaced(self, node: Expr, args: tuple[Expr, ...], located: bool) -> Expr:
         op = node.op

@@ -15,7 +15,7 @@ import numpy as np
 from ..language.blackbox import Table
 from ..language.flat_model import Family, FlatModel, canonical
 from ..symbolic.expr import Expr, add, const, intern_node, make, mul, neg
-from ..symbolic.traverse import leaves, postorder
+from ..symbolic.traverse import leaves, postorder, rewrite_located
 from .differentiation import differentiations
 from .structure import IndexReduced
 
@@ -64,20 +64,7 @@ def _conditions(root: Expr) -> Expr:
     """One expression with conditions in the place of its kinks."""
     if not any(_has_kink(node) for node in postorder((root,))):
         return root
-    memo: dict[tuple[int, bool], Expr] = {}
-    pending = [(root, True, False)]
-    while pending:
-        node, open_, ready = pending.pop()
-        if (id(node), open_) in memo:
-            continue
-        below = open_ and node.op != "noevent"
-        if node.args and not ready:
-            pending.append((node, open_, True))
-            pending.extend((a, below, False) for a in node.args)
-            continue
-        args = tuple(memo[id(a), below] for a in node.args)
-        memo[id(node), open_] = _replaced(node, args, open_ and _has_kink(node))
-    return memo[id(root), True]
+    return rewrite_located(root, _replaced)
 
 
 def _has_kink(node: Expr) -> bool:
@@ -87,8 +74,8 @@ def _has_kink(node: Expr) -> bool:
     return kind and any(leaf.op in ("var", "time") for leaf in leaves(*node.args))
 
 
-def _replaced(node: Expr, args: tuple[Expr, ...], kink: bool) -> Expr:
-    if not kink:
+def _replaced(node: Expr, args: tuple[Expr, ...], located: bool) -> Expr:
+    if not located or not _has_kink(node):
         same = all(a is b for a, b in zip(args, node.args, strict=True))
         return node if same else intern_node(node.op, args, node.value)
     if node.op == "abs":

@@ -58,6 +58,34 @@ def substitute(root: Expr, mapping: Mapping[Expr, Expr]) -> Expr:
     return rewrite((root,), mapping.get)[0]
 
 
+def rewrite_located(
+    root: Expr, replace: Callable[[Expr, tuple[Expr, ...], bool], Expr], located: bool = True,
+    memo: dict[tuple[int, bool], Expr] | None = None,
+) -> Expr:  # fmt: skip
+    """Rebuild `root` bottom up, where it matters whether a node is below `noevent`.
+
+    Args:
+        root: an expression.
+        replace: ``replace(node, args, located)`` gives a node's substitute; `args` are its operands, replaced, and
+            `located` is False below `noevent`.
+        located: whether `root` itself is not below `noevent`.
+        memo: substitutes by identity and `located`, where several expressions are rebuilt.
+    """
+    memo = {} if memo is None else memo
+    pending = [(root, located, False)]
+    while pending:
+        node, here, ready = pending.pop()
+        if (id(node), here) in memo:
+            continue
+        below = here and node.op != "noevent"
+        if node.args and not ready:
+            pending.append((node, here, True))
+            pending.extend((a, below, False) for a in node.args)
+            continue
+        memo[id(node), here] = replace(node, tuple(memo[id(a), below] for a in node.args), here)
+    return memo[id(root), located]
+
+
 def evaluate(
     roots: Iterable[Expr], leaf: Callable[[Expr], Any], xp: Any, memo: dict[int, Any] | None = None
 ) -> list[Any]:
