@@ -8,7 +8,7 @@ from typing import Any
 from matplotlib import pyplot
 
 import acausal as ac
-from acausal import Component, Equations, Parameter, connect, where
+from acausal import Component, Equations, Parameter, connect, start, where
 from acausal.components import translational as tr
 
 
@@ -28,7 +28,7 @@ class Car(Component):
 
     road: tr.Position = tr.Position(exact=True)
     suspension: tr.PartialCompliantWithVelocity = Suspension()  # any component of this type can take its place
-    body: tr.Mass = tr.Mass(m=350.0)
+    body: tr.Mass = tr.Mass(m=350.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True))
 
     def equations(self) -> Equations:
         yield self.road.s_ref == 0.03 * ac.sin(12.6 * ac.time)

@@ -8,7 +8,7 @@ from typing import Any
 from matplotlib import pyplot
 
 import acausal as ac
-from acausal import Component, Equations, Parameter, connect, where
+from acausal import Component, Equations, Parameter, connect, start, where
 from acausal.components import blocks
 from acausal.components import translational as tr
 
@@ -31,9 +31,9 @@ class QuarterCar(Component):
     bumps: blocks.SignalSource = blocks.Sine(amplitude=0.03, f=2.0)
     road: tr.Position = tr.Position(exact=True)
     tyre: tr.SpringDamper = tr.SpringDamper(c=2e5, d=100.0)
-    wheel: tr.Mass = tr.Mass(m=40.0)
+    wheel: tr.Mass = tr.Mass(m=40.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True))
     suspension: tr.PartialCompliantWithVelocity = Suspension()  # any component of this type can take its place
-    body: tr.Mass = tr.Mass(m=350.0)
+    body: tr.Mass = tr.Mass(m=350.0, s=start(0.0, fixed=True), v=start(0.0, fixed=True))
 
     def equations(self) -> Equations:
         yield self.road.s_ref == self.bumps.y

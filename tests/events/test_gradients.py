@@ -246,6 +246,7 @@ def test_a_model_without_states(engine: Any) -> None:
     assert_allclose(found, [np.sin(1.5) / (1.0 + 3.0 * y**2), wanted], rtol=1e-7)
 
 
+@pytest.mark.slow
 def test_diffrax_within_a_compiled_program() -> None:
     """`when` cannot be carried out there; conditions are stepped over, and what that does to derivatives is said."""
     system = ac.compile(BouncingBall())

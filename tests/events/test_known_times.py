@@ -81,6 +81,7 @@ def test_the_trajectory_is_exact_too(engine: Any) -> None:
     np.testing.assert_allclose(solution["last"][flight > 0], since[flight][flight > 0], rtol=1e-10)
 
 
+@pytest.mark.slow
 def test_times_within_a_swing_that_the_states_do_not_feel() -> None:
     """A condition on time alone, on no states that would limit the steps: 2000 crossings in one run."""
 

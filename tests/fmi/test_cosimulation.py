@@ -185,6 +185,7 @@ def test_a_class_is_not_a_model():
         split(TwoMasses, "middle.flange_a")  # pyright: ignore[reportArgumentType]
 
 
+@pytest.mark.slow
 def test_jax_inside(masses):
     """Any diffrax solver can be inside a participant."""
     import diffrax

@@ -141,6 +141,7 @@ class Relief(Component):
         yield connect(self.line.port_b, self.valve.port, self.relief.port_a)
 
 
+@pytest.mark.slow
 def test_stick_and_slip_split_from_the_drive():
     cut = split(StickSlip(), "spring.flange_a", names=("block", "drive"))
     record = ["block.s", "block.v", "block.mode"]

@@ -155,6 +155,7 @@ def test_far_output_times_stay_on_the_branch(engine: Any, save: list[float]) -> 
     assert np.asarray(solution["angle"]) == pytest.approx(wanted, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_slopes_over_far_output_times() -> None:
     system = ac.compile(Revolving())
 

@@ -128,6 +128,7 @@ def test_contradicting_initial_equations_are_named() -> None:
     assert "x = 2" in str(info.value)
 
 
+@pytest.mark.slow
 def test_inside_jax_the_start_is_the_same() -> None:
     system = ac.compile(Pendulum(x=ac.start(0.6, fixed=True), y=ac.start(-1.0), u=ac.start(2.0, fixed=True)))
 

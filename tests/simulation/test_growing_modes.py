@@ -41,6 +41,7 @@ def test_unstable_equilibrium_is_left(engine: Any, rtol: float) -> None:
         assert (np.asarray(solution["x"]) > 0).all()
 
 
+@pytest.mark.slow
 def test_gradient_through_steps_that_were_refused() -> None:
     """At the end ``x = sqrt(t - 1)``, whatever k is; y does not depend on k either."""
     system = ac.compile(Pitchfork())
@@ -52,6 +53,7 @@ def test_gradient_through_steps_that_were_refused() -> None:
     assert_allclose([value, slope * 1e6], [1.0, 0.0], atol=1e-5)
 
 
+@pytest.mark.slow
 def test_many_runs_at_once() -> None:
     system = ac.compile(Pitchfork())
 

@@ -108,6 +108,7 @@ def test_dense_output_order():
     assert error(16) < 1e-5
 
 
+@pytest.mark.slow
 def test_backwards_in_time():
     def field(t, y, args):
         return y * jnp.cos(t)
@@ -172,6 +173,7 @@ def end_value(mu, adjoint):
     return solved.ys[-1, 0]
 
 
+@pytest.mark.slow
 def test_derivatives():
     h, mu = 1e-4, 10.0
     reverse_mode = diffrax.RecursiveCheckpointAdjoint()

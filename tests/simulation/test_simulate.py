@@ -139,6 +139,7 @@ def test_too_few_steps():
         simulate(van_der_pol(), 100.0, max_steps=7)
 
 
+@pytest.mark.slow
 def test_gradient_and_vmap():
     system = diode()
 

@@ -95,6 +95,7 @@ def test_pytree(solution):
     assert doubled.system is solution.system
 
 
+@pytest.mark.slow
 def test_batch_of_solutions():
     system = van_der_pol()
     batch = jax.vmap(lambda m: simulate(system, 1.0, parameters={"mu": m}, saveat=5))(jnp.array([1.0, 2.0]))

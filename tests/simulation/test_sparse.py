@@ -88,6 +88,7 @@ def test_ladder_against_dense():
 
 
 @needs_klu
+@pytest.mark.slow
 def test_large_ladder_vmap_and_grad():
     n = 500
     solver = SparseKLU(banded(n))

@@ -92,6 +92,7 @@ def test_derivatives(engine: Any) -> None:
     assert_allclose(by_x, np.sum(weight * 2.0 * slope), rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_forward_mode() -> None:
     system = ac.compile(Kinked())
 
