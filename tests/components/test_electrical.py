@@ -202,7 +202,7 @@ def test_compare_transformers() -> None:
         np.testing.assert_allclose(solution[signal], values, rtol=1e-6, atol=1e-7)
 
 
-@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
 def test_an_ideal_diode_conducts_what_its_circuit_gives_it(engine: Any) -> None:
     """Its curve parameter is iterated: as a difference of potentials over 1e-5 ohm, 2 uA would be lost in rounding."""
     fired = electrical.Thyristor(vControl=start(5.0, fixed=True))

@@ -16,7 +16,6 @@ from acausal.components.examples import assemble
 from . import msl_constraints, msl_elementary
 from .tube import assert_within
 
-ENGINES = ["native", "diffrax"]
 Triple = tuple[float, float, float]
 ORIGIN = (0.0, 0.0, 0.0)
 
@@ -54,7 +53,7 @@ def turned(angles: Any, sequence: tuple[int, ...] = (1, 2, 3)) -> np.ndarray:
     return third @ second @ first
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("rtol", [1e-6, 1e-9])
 @pytest.mark.parametrize(
     ("angles", "w", "I_21"),

@@ -43,13 +43,16 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
     "BlocksTestFilters": msl_block_tests.filters,
 }  # fmt: skip
 
+SLOW = {"BlocksTestPadeDelay1"}
+NAMES = [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in MODELS]
+
 
 NATIVE_ONLY = {"BlocksTestStrictLimiters"}
 """With `strict`, an integrator stops without an event: at 1e-8 the diffrax engine's steps do not get past that jump."""
 
 
 @pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("name", NAMES)
 def test_within_the_tube(name: str, engine: Any) -> None:
     if engine == "diffrax" and name in NATIVE_ONLY:
         pytest.skip("a jump without an event")

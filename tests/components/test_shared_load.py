@@ -56,7 +56,7 @@ def shares(solution: ac.Solution, n: int, gear: str) -> tuple[Any, Any]:
 
 
 @pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
-@pytest.mark.parametrize(("n", "gear"), [(3, "lossy"), (5, "lossy"), (5, "ideal")])
+@pytest.mark.parametrize(("n", "gear"), [(3, "lossy"), pytest.param(5, "lossy", marks=pytest.mark.slow), (5, "ideal")])
 def test_each_stuck_element_carries_its_share(n: int, gear: str, engine: Any) -> None:
     solution = ac.compile(train(n, gear)).simulate(T[-1], saveat=T, rtol=1e-8, engine=engine, max_steps=400)
     told, stuck = shares(solution, n, gear)

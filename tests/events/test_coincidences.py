@@ -195,7 +195,7 @@ class StruckTwice(Component):
         )
 
 
-@ENGINES
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
 def test_a_second_reinit_at_the_same_moment_begins_from_the_first(engine: Any) -> None:
     system = ac.compile(StruckTwice())
     run = system.simulate(1.5, engine=engine, saveat=2)

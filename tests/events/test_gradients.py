@@ -90,6 +90,11 @@ CASES = {
 }  # fmt: skip
 
 
+def cases(slow: set[str]) -> list[Any]:
+    """Names of all cases; those that take long are marked."""
+    return [pytest.param(name, marks=pytest.mark.slow) if name in slow else name for name in CASES]
+
+
 def values_of(case: Case, engine: Any = "native") -> Callable[[jax.Array], jax.Array]:
     """Values of what is seen half way and at the end, as a function of all parameters and start values."""
     system = ac.compile(case.model())
@@ -107,7 +112,7 @@ def values_of(case: Case, engine: Any = "native") -> Callable[[jax.Array], jax.A
     return values
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", cases(slow={"full_wave"}))
 def test_derivatives_through_events(name: str) -> None:
     case = CASES[name]
     values = values_of(case)
@@ -120,7 +125,7 @@ def test_derivatives_through_events(name: str) -> None:
         assert_allclose(found[:, k], difference, rtol=2e-5, atol=2e-6 * max(1.0, np.abs(difference).max()))
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", cases(slow={"stick_slip", "full_wave", "mixed", "wall"}))
 def test_both_engines_have_the_same_derivatives(name: str) -> None:
     case = CASES[name]
     x = jnp.array([*case.parameters.values(), *case.initial.values()])
@@ -182,7 +187,7 @@ class Jump(Component):
         yield der(self.x) == where(self.x < self.a, self.k, self.r)
 
 
-@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
 def test_a_rate_that_jumps_in_closed_form(engine: Any) -> None:
     system = ac.compile(Jump())
 

@@ -53,7 +53,9 @@ def test_no_event_is_missed_in_many_runs(name: str) -> None:
         check(name, seed, "native")
 
 
-@pytest.mark.parametrize("name", KNOWN)
+@pytest.mark.parametrize(
+    "name", [name if name == "ball" else pytest.param(name, marks=pytest.mark.slow) for name in KNOWN]
+)
 def test_the_diffrax_engine_finds_the_same_times(name: str) -> None:
     for seed in range(3):
         check(name, seed, "diffrax")

@@ -31,7 +31,7 @@ class Resting(Component):
         yield self.motor.w * 3.0 == 3.0 * (0.1 + 0.2 - self.load.w) - 0.9
 
 
-@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
 def test_what_rests_but_for_rounding_is_stuck(engine: Any) -> None:
     solution = ac.compile(Resting()).simulate(0.5, saveat=[0.0, 0.25, 0.5], rtol=1e-9, engine=engine)
     assert abs(solution["motor.w"][0]) < 1e-15

@@ -7,13 +7,19 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+SLOW = {"fmi.md"}
 CODE = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"\]\((?!https?:|#)([^)#]+)")
 
 
 @pytest.mark.parametrize(
-    "path", [d for d in DOCUMENTS if CODE.search(d.read_text(encoding="utf-8"))], ids=lambda p: p.name
-)
+    "path",
+    [
+        pytest.param(d, marks=pytest.mark.slow) if d.name in SLOW else d
+        for d in DOCUMENTS if CODE.search(d.read_text(encoding="utf-8"))
+    ],
+    ids=lambda p: p.name,
+)  # fmt: skip
 def test_code_runs(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     import matplotlib

@@ -71,6 +71,7 @@ WAYS = [
     (Decay, run), (Decay, run_with_algebraic_unknowns_inside), (Decay, gradient), (Decay, compiled), (Decay, many),
     (Decay, linearization), (Ball, run), (Ball, gradient), (Ball, compiled), (Ball, many),
 ]  # fmt: skip
+QUICK = {(Decay, run), (Decay, gradient), (Ball, run)}
 
 
 def programs() -> int:
@@ -86,7 +87,10 @@ def used(model: type[Component], use: Callable[[ac.System], None]) -> list[weakr
     return [weakref.ref(one) for one in (system, system.lowered, system.located, system.located.lowered)]
 
 
-@pytest.mark.parametrize(("model", "use"), WAYS, ids=[f"{m.__name__}-{u.__name__}" for m, u in WAYS])
+@pytest.mark.parametrize(("model", "use"), [
+    pytest.param(m, u, id=f"{m.__name__}-{u.__name__}", marks=[] if (m, u) in QUICK else pytest.mark.slow)
+    for m, u in WAYS
+])  # fmt: skip
 def test_a_system_goes_with_its_programs(model: type[Component], use: Callable[[ac.System], None]) -> None:
     gc.collect()
     before = programs()

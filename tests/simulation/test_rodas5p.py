@@ -121,7 +121,7 @@ def test_backwards_in_time():
         assert fixed_step(field, jnp.ones(1), 0.0, 40, solver, t0=2.0)[-1, 0] == pytest.approx(exact, rel=1e-8)
 
 
-@pytest.mark.parametrize("given", [False, True])
+@pytest.mark.parametrize("given", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_given_jacobian_and_rate(given):
     def field(t, y, args):
         return jnp.stack([-args * y[0] + jnp.sin(t), y[0] - y[1] ** 2])

@@ -213,6 +213,7 @@ def test_unknown_engine():
         simulate(van_der_pol(), 1.0, engine="other")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("system", [diode(), pendulum(1.0)], ids=["algebraic unknowns", "invariants"])
 def test_forward_mode_through_wrapped_solvers(system):
     name, seen = list(system.defaults)[-1], system.states[0]

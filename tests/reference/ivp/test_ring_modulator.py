@@ -25,7 +25,7 @@ WANTED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
 def test_without_capacitances(engine: Any) -> None:
     problem = problems.load("ring_modulator")
     equations = [re.sub(r"^cs\*der\(y\d\) - ", "", text) for text in problem["equations"]]
