@@ -43,6 +43,8 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
     `JUMP` tolerances, or one that is not finite, or `FORCED_STEPS` forced steps in a row end the solve with
     `dt_min_reached`: there the solution has ended.
 
+    No step goes beyond a kink of the inputs: what happens between two evaluations there, as a pulse, would not be seen.
+
     Source: Gustafsson (1994), Control-theoretic techniques for stepsize selection in implicit Runge-Kutta methods, ACM
     TOMS 20; Hairer & Wanner, *Solving Ordinary Differential Equations II*, IV.8.
 
@@ -52,18 +54,21 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
         states: how many of the unknowns, the first ones, are states; None for all.
         smallest: smallest step at the far end of the time axis [s]; elsewhere the smallest step is that fraction of
             the time, so that a run over 1e11 s can begin with steps of microseconds.
+        kinks: times at which steps end [s], in order (n,); None for none.
     """
 
     rtol: Any
     atol: Any
     smallest: Any
+    kinks: Any = None
     states: int | None = eqx.field(static=True, default=None)
     norm: Callable[[Any], Any] = eqx.field(static=True, default=largest)
 
     def wrap(self, direction: Any) -> ErrorControl:
-        """diffrax integrates backwards by running its own time forwards: nothing depends on the direction."""
-        del direction
-        return self
+        """For the time of diffrax, which runs forwards where the run goes backwards: the kinks alone depend on it."""
+        if self.kinks is None:
+            return self
+        return eqx.tree_at(lambda control: control.kinks, self, jnp.sort(self.kinks * direction))
 
     def init(
         self, terms: Any, t0: Any, t1: Any, y0: Any, dt0: Any, args: Any, func: Any, error_order: Any
@@ -72,8 +77,8 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
         first = diffrax.PIDController(rtol=self.rtol, atol=self.atol, norm=self.norm)
         end, _ = first.init(terms, t0, t1, y0, dt0, args, func, error_order)
         zero = jnp.zeros_like(jnp.asarray(end))
-        step, planned = _limited(end - t0, t1 - t0)
-        return t0 + step, _State(zero, jnp.ones_like(zero), jnp.asarray(False), jnp.asarray(0), t1 + zero, planned)
+        end, planned = self._end(t0, end - t0, t1)
+        return end, _State(zero, jnp.ones_like(zero), jnp.asarray(False), jnp.asarray(0), t1 + zero, planned)
 
     def adapt_step_size(
         self, t0: Any, t1: Any, y0: Any, y1_candidate: Any, args: Any, y_error: Any, error_order: Any,
@@ -88,7 +93,7 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
         leaves = [*jax.tree.leaves(y1_candidate), *jax.tree.leaves(y_error)]
         finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(leaf)) for leaf in leaves]))
         good = finite & (error <= 1.0)
-        floor = jnp.maximum(ROUNDING * jnp.abs(t0), 1e-10 * self.smallest)
+        floor = self._floor(t0)
         at_floor = h <= 1.5 * floor
         of_states = jnp.max(jnp.abs(_flat(scaled))[: self.states], initial=0.0)
         force = at_floor & ~good & finite & (of_states <= JUMP)
@@ -98,13 +103,25 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
         step = jnp.where(kept, self._next(h, size, good, state, error_order), self._again(h, size, finite, error_order))
         next_t0 = jnp.where(kept, t1, t0)
         step = jnp.where(kept, jnp.maximum(step, state.planned), step)  # one cut short says nothing against the planned
-        step, planned = _limited(jax.lax.stop_gradient(jnp.maximum(step, floor)), state.end - next_t0)
+        next_t1, planned = self._end(next_t0, jax.lax.stop_gradient(jnp.maximum(step, floor)), state.end)
         failed = (at_floor & ~kept) | (forced > FORCED_STEPS)
         result = RESULTS.where(failed, RESULTS.dt_min_reached, RESULTS.successful)
         before = jax.lax.stop_gradient(jnp.where(kept, h, state.step))
         error_before = jnp.where(kept, jnp.maximum(size, SMALLEST_ERROR[1]), state.error)
         state = _State(before, error_before, ~kept, forced, state.end, planned)
-        return kept, next_t0, next_t0 + step, False, state, result
+        return kept, next_t0, next_t1, False, state, result
+
+    def _floor(self, t: Any) -> Any:
+        """The smallest step at time t [s]."""
+        return jnp.maximum(ROUNDING * jnp.abs(t), 1e-10 * self.smallest)
+
+    def _end(self, t: Any, step: Any, end: Any) -> tuple[Any, Any]:
+        """End of the step from t on, by the end of the run or the next kink, and what was planned if it is cut."""
+        if self.kinks is not None:
+            k = jnp.searchsorted(self.kinks, t + self._floor(t), side="right")
+            end = jnp.minimum(end, jnp.append(self.kinks, jnp.inf)[k])
+        size, planned = _limited(step, end - t)
+        return jnp.where(size >= end - t, end, t + size), planned
 
     def _scaled(self, y0: Any, y1: Any, error: Any) -> Any:
         magnitude = jnp.maximum(jnp.abs(y0), jnp.abs(jnp.where(jnp.isfinite(y1), y1, y0)))

@@ -273,7 +273,8 @@ class _Stretches:
             w, beyond = compiled(*arguments)
             return np.asarray(w), np.asarray(beyond)
 
-        return static_integrate(self.iteration, look)
+        kinks = lowered.kinks(self.numbers) if isinstance(lowered, DrivenLowered) else None
+        return static_integrate(self.iteration, look, np.zeros(0) if kinks is None else np.asarray(kinks))
 
     def differentiated(self) -> Differentiated:
         """Stretches with their derivatives."""

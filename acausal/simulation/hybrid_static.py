@@ -78,8 +78,8 @@ class _Path:
         del self.times[:k], self.known[:k]
 
 
-def static_integrate(iteration: EventIteration, look: Look) -> Integrate:
-    """Stretches of a model without states."""
+def static_integrate(iteration: EventIteration, look: Look, kinks: Floats) -> Integrate:
+    """Stretches of a model without states, whose inputs have kinks at these times (n,): it is looked at there, too."""
     hybrid = iteration.hybrid
 
     def integrate(
@@ -90,7 +90,8 @@ def static_integrate(iteration: EventIteration, look: Look) -> Integrate:
         kept = [np.tile(z, (int((save <= t).sum()) if not (end_open and stop <= t) else 0, 1))]
         n, here = len(kept[0]), t
         while here < stop:
-            target = float(min(save[n], stop)) if n < len(save) else stop
+            to_kink = kinks[np.searchsorted(kinks, here, side="right") :][:1]
+            target = float(min([*save[n : n + 1], *to_kink, stop]))
             around = scan.first(here, target)
             if around is not None:
                 low, high = around

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array
@@ -40,6 +41,11 @@ class DrivenLowered:
     def values(self, t: Any, data: tuple[Any, ...]) -> list[Array]:
         """Values of the inputs at time t."""
         return [jnp.asarray(signal(t, d), float) for signal, d in zip(self.signals, data, strict=True)]
+
+    def kinks(self, data: tuple[Any, ...]) -> Array | None:
+        """Times at which inputs have kinks, those of the points of tables, in order (n,); None if there are none."""
+        times = [d[0] for signal, d in zip(self.signals, data, strict=True) if signal is _table]
+        return jax.lax.stop_gradient(jnp.sort(jnp.concatenate(times))) if times else None
 
     def derivatives(self, t: Any, x: Array, w: Array, p: Any) -> tuple[Array, Array]:
         return self.lowered.derivatives(t, x, w, self.at(t, p))

@@ -205,10 +205,13 @@ static int ac_adams(ac_problem *q, ac_work *w, ac_explicit_work *e) {
     while (direction * (q->t1 - q->t_end) > 0.0) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
         if (ac_watched(q)) return AC_STOPPED;
-        const double t = q->t_end, left = fabs(q->t1 - t), floor_ = ac_max(1e-14 * fabs(t), 1e-10 * q->smallest);
+        const double t = q->t_end, floor_ = ac_max(1e-14 * fabs(t), 1e-10 * q->smallest);
+        const double to = ac_smooth_until(q, w, t, floor_), left = fabs(to - t);
         const int last = h >= left * (1.0 - 1e-12);
-        const double step = direction * (last ? left : h), t1 = last ? q->t1 : t + step;
-        if (fabs(step) < floor_ && !last) return AC_SMALLEST_STEP;
+        if (h < floor_ && !last) return AC_SMALLEST_STEP;
+        /* to a kink two equal steps rather than one and a short rest, behind which the steps would have to grow again */
+        const double size_ = last ? left : to == q->t1 ? h : ac_min(h, 0.5 * left);
+        const double step = direction * size_, t1 = last ? to : t + step;
         for (int j = known; j <= k; j++) e->x[j] = e->x[j - 1] - step; /* no past yet: phi there is zero */
         ac_coefficients(e, k, step, g, beta);
         q->steps++;

@@ -124,12 +124,12 @@ static AC_UNUSED int ac_integrate(ac_problem *q, ac_work *w, ac_control *k, void
         }
 #endif
         const int last = k->last && !event;
-        const double t1 = last ? q->t1 : t + step;
+        const double t1 = last ? k->to : t + step;
         ac_keep(k->sums, w->z1);
 #if AC_NG > 0
         ac_project(w, tangents, t1);
 #endif
-        ac_save_step(q, w, tangents, t, step, t1, ac_until(q, t1, event, k->last));
+        ac_save_step(q, w, tangents, t, step, t1, ac_until(q, t1, event, k->last && k->to == q->t1));
         memcpy(w->z, w->z1, sizeof w->z);
 #ifdef AC_TANGENTS
         ac_tangent_work *d = tangents;

@@ -160,6 +160,31 @@ static inline void ac_inputs(ac_work *w, double t) {
     }
 }
 
+/* The first point of a signal beyond t in a direction; the end of the time axis where there is none. */
+static inline double ac_point_beyond(const ac_signal *s, double t, double direction) {
+    int lo = 0, hi = s->n; /* the first point behind t, or at it */
+    while (lo < hi) {
+        const int mid = (lo + hi) / 2;
+        if (direction > 0.0 ? s->t[mid] > t : s->t[mid] >= t) hi = mid;
+        else lo = mid + 1;
+    }
+    if (direction > 0.0) return lo < s->n ? s->t[lo] : INFINITY;
+    return lo > 0 ? s->t[lo - 1] : -INFINITY;
+}
+
+/* Up to where the inputs are smooth, from t towards q->t1: they have a kink at each of their points. A step beyond one
+   would pass over what happens there, as a pulse between two evaluations. Points nearer than `least` count as reached. */
+static double ac_smooth_until(const ac_problem *q, const ac_work *w, double t, double least) {
+    const double direction = q->t1 >= t ? 1.0 : -1.0;
+    double to = q->t1;
+    for (int i = 0; i < AC_NU; i++) {
+        if (w->m.signals[i].n == 1) continue;
+        const double point = ac_point_beyond(w->m.signals + i, t + direction * least, direction);
+        if (direction * (to - point) > 0.0) to = point;
+    }
+    return to;
+}
+
 static inline void ac_value(ac_work *w, double t, const double *z, double *f) {
     ac_inputs(w, t);
     ac_field(&w->m, t, z, f);

@@ -10,7 +10,8 @@ typedef struct {
     int begun;                     /* the sums are known */
     double sums[AC_NK + 1];        /* linear first integrals */
     double size;                   /* of the step that is being made, */
-    int last, cut;                 /* which ends the run; which is smaller than it might be, to that end */
+    double to;                     /* end of the run, or a kink of the inputs before it, */
+    int last, cut;                 /* which the step ends at; the step is smaller than it might be, to that end */
     int fresh;                     /* f, ft and J are those of its start */
     int forced;                    /* smallest steps in a row that were taken in spite of their error */
     int reference;                 /* sign of the determinant for small steps, see ac_outrun */
@@ -97,7 +98,7 @@ static void ac_begin(const ac_problem *q, ac_work *w, ac_control *k, double t) {
     k->h = ac_first_step(q, w, q->t1 >= t ? 1.0 : -1.0);
 }
 
-/* The size of the next step where `left` is left of the stretch: two equal steps rather than one and a short rest. */
+/* The size of the next step where `left` is left to k->to: two equal steps rather than one and a short rest. */
 static void ac_limit(ac_control *k, double left, double least) {
     k->size = k->h > least ? k->h : least;
     k->last = k->size >= left * (1.0 - 1e-12);
@@ -133,7 +134,8 @@ static int ac_step(ac_problem *q, ac_work *w, ac_control *k, double t) {
     for (;;) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
         if (ac_watched(q)) return AC_STOPPED;
-        ac_limit(k, fabs(q->t1 - t), least);
+        k->to = ac_smooth_until(q, w, t, least);
+        ac_limit(k, fabs(k->to - t), least);
         ac_refresh(w, k, t);
         const double step = direction * k->size, d = 1.0 / (ac_gamma * step);
         const int singular = ac_factorise(w, d), at_floor = k->size <= 1.5 * least;
