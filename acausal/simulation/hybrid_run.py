@@ -71,7 +71,7 @@ class HybridRun:
         code, t_end, z_end, p_end, counts: as of a run without events; the code of an end by `terminate` is 0.
         ended: message of `terminate`.
         save: times of the rows.
-        closed: whether the last row is what follows from `terminal()`.
+        closed: whether the last row is what follows from `terminal()` or `terminate`, and not what was saved.
     """
 
     z: Floats
@@ -210,22 +210,25 @@ def run_hybrid(
         if not happened and not samples:
             break
         outcome = iteration.event(t, z_end, p, segment.switched if happened else None, samples)
+        if at_end and outcome.ended is not None and slots.terminal >= 0:
+            outcome = _closing(iteration, t, outcome)
         if at_event is not None:
             at_event(t, segment, outcome, samples)
         record.event(t, outcome.changed)
         turned.event(t, (z_end, p), outcome, segment.switched if happened else None)
         z, p, ended, step, code = outcome.z, outcome.p, outcome.ended, segment.step, 0
         z_end = z
-    closed = False
-    if at_end and slots.terminal >= 0 and ended is None and code == 0:
+    changed = ended is not None
+    closing = ended is None or start.ended is not None  # not at an event that has ended it: that has seen to it
+    if at_end and slots.terminal >= 0 and code == 0 and closing:
         outcome = iteration.event(t, z_end, p, None, [slots.terminal])
         if at_event is not None:
             at_event(t, None, outcome, [slots.terminal])
-        p, z_end = outcome.p, outcome.z
-        closed = bool(saved and save[saved - 1] == t)
+        p, z_end, changed = outcome.p, outcome.z, True
+    closed = bool(changed and saved and save[saved - 1] == t)
     found = np.concatenate(record.z) if record.z else np.zeros((0, len(start.z)))
     modes = np.concatenate(record.slots) if record.slots else np.zeros((0, slots.count))
-    if closed:  # the end is as `terminal()` has left it
+    if closed:  # the end is as `terminal()` or `terminate` has left it
         found[-1], modes[-1] = z_end, p[hybrid.slots]
     if ended is not None and (not saved or save[saved - 1] < t):  # the end itself is part of the result
         found, modes = np.concatenate([found, z_end[None]]), np.concatenate([modes, p[None, hybrid.slots]])
@@ -234,6 +237,16 @@ def run_hybrid(
         save = save[:saved]
     counts = {name: record.counts.get(name, 0) for name in ("steps", "accepted", "rejected", "pivoted")}
     return HybridRun(found, modes, record.events, code, t, z_end, p, counts, ended, save, closed)
+
+
+def _closing(iteration: EventIteration, t: float, outcome: Outcome) -> Outcome:
+    """What follows from `terminal()` where `terminate` has ended a run, as a part of the event that has: where the time
+    of that moves, so does what is written at the end."""
+    earlier = iteration.moves
+    last = iteration.event(t, outcome.z, outcome.p, None, [iteration.hybrid.flat.slots.terminal])
+    iteration.moves = [*earlier, *iteration.moves]
+    last.ended, last.changed = outcome.ended, outcome.changed
+    return last
 
 
 def warn(message: str) -> None:

@@ -175,6 +175,31 @@ def test_the_end_of_a_run_that_ends_itself() -> None:
     assert_allclose(jax.grad(last)(2.0), 2 * 2.0 * 0.25, rtol=1e-9)
 
 
+@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+def test_what_is_written_where_terminate_ends_a_run(engine: Any) -> None:
+    """It follows the time of the end: x is 0.5 there whatever its rate, and the time 0.5 / rate."""
+
+    class Stopped(Component):
+        x: Variable = Variable(start=0.0, fixed=True)
+        rate: Parameter = Parameter(2.0)
+        last: Discrete = Discrete(start=0)
+        end: Discrete = Discrete(start=0)
+
+        def equations(self) -> Equations:
+            yield der(self.x) == self.rate
+            yield when(self.x > 0.5, ac.terminate("done"))
+            yield when(ac.terminal(), {self.last: self.x**2, self.end: ac.time})
+
+    system = ac.compile(Stopped())
+
+    def written(rate: jax.Array) -> jax.Array:
+        run = system.simulate(1.0, parameters={"rate": rate}, engine=engine, saveat=2)
+        return jnp.stack([jnp.asarray(run[name])[-1] for name in ("last", "end")])
+
+    assert_allclose(written(jnp.asarray(2.0)), [0.25, 0.25], rtol=1e-9)
+    assert_allclose(jax.jacrev(written)(2.0), [0.0, -0.125], rtol=1e-6, atol=1e-9)
+
+
 class Jump(Component):
     """A rate that jumps at a threshold: ``x(t1) = a + r (t1 - a / k)``, with a table and a number as inputs."""
 

@@ -288,8 +288,28 @@ def test_the_end(engine: Any) -> None:
     assert "x is large enough" in str(solution.result)
     assert_allclose(solution.t[-1], 0.625, rtol=1e-12)
     assert_allclose(solution["x"][-1], 0.625, rtol=1e-12)
+    assert_allclose(solution["last"][-1], 0.625, rtol=1e-12)  # an end is an end: `terminal()` is true there
+    assert solution["last"][0] == -1.0
     whole = run(Ending(), 1.0, engine, parameters={"end": 2.0})
     assert_allclose(whole["last"][-1], 1.0, rtol=1e-9)
+
+
+class Refused(Ending):
+    """What it has come to is looked at when it ends."""
+
+    most: Parameter = Parameter(0.5)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield ac.assert_(~ac.terminal() | (self.x < self.most), "too much in the end")
+
+
+def test_assertions_at_the_end_hold_where_it_was_terminated(engine: Any) -> None:
+    """A failed assertion takes precedence over a successful end; Modelica Language Specification 8.3.7."""
+    for end in (0.625, 2.0):
+        with pytest.raises(ac.SimulationError, match="too much in the end"):
+            run(Refused(), 1.0, engine, parameters={"end": end})
+        assert_allclose(run(Refused(), 1.0, engine, parameters={"end": end, "most": 3.0})["last"][-1], min(end, 1.0))
 
 
 class Over(Clock):
