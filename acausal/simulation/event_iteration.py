@@ -433,6 +433,14 @@ class EventIteration(ModeSearch):
         """
         return [clock.slot for clock in self.clocks if clock.passed(t) > clock.passed(since)]
 
+    def moment(self, since: float, t: float) -> float:
+        """Time of these samples, which an event at t may be before by rounding.
+
+        That is the time of all that happens with them: what else switches at the sample, which is hit exactly, may not
+        have switched yet at t.
+        """
+        return max([t, *(c.time(c.passed(t) - 1.0) for c in self.clocks if c.passed(t) > c.passed(since))])
+
     # ---- start ------------------------------------------------------------------------------------
     def _guess_modes(self, t0: float, p: Floats, starts: Floats) -> None:
         """Put the modes that hold at the start values into p, where those say so; where not, 0 is the guess.

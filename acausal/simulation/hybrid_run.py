@@ -209,6 +209,7 @@ def run_hybrid(
         samples = iteration.samples(since, t)
         if not happened and not samples:
             break
+        t = min(iteration.moment(since, t), t1)
         outcome = iteration.event(t, z_end, p, segment.switched if happened else None, samples)
         if at_end and outcome.ended is not None and slots.terminal >= 0:
             outcome = _closing(iteration, t, outcome)

@@ -116,6 +116,28 @@ def test_a_sample_within_rounding_of_another_event_is_not_lost(engine: Any, befo
     assert [run[name][-1] for name in ("ticks", "others", "ends")] == [3.0, 3.0, 1.0]
 
 
+class SplitByRounding(Component):
+    """What a sample sees begins with it, beside a condition that switches at the same time but for rounding."""
+
+    start: Parameter = Parameter(0.25)
+    period: Parameter = Parameter(1.75)
+    x: Variable = Variable(start=0.0, fixed=True)
+    seen: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        elapsed = ac.time - self.start
+        wrapped = elapsed - self.period * ac.floor((elapsed - 0.125) / self.period)
+        yield der(self.x) == where(wrapped < self.period, 1.0, 2.0)  # false already at 0.25 - 1e-16
+        yield when(sample(0.0, 0.25), {self.seen: pre(self.seen) + where(ac.time < self.start, 0.0, 1.0)})
+
+
+@ENGINES
+def test_a_sample_is_at_its_time_where_an_event_before_it_by_rounding_takes_it_along(engine: Any) -> None:
+    solution = ac.compile(SplitByRounding()).simulate(0.6, engine=engine, saveat=2)
+    assert solution["seen"][-1] == 2.0
+    assert [event.t for event in solution.events if 0.2 < event.t < 0.3] == [0.25]
+
+
 def test_samples_far_from_time_zero_are_taken_once() -> None:
     """At 1e6 s a period of 1 ms is known to 1e-7 of it only."""
     system = ac.compile(Sampled())

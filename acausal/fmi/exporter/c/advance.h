@@ -134,6 +134,7 @@ static int fmu_stretches(fmu_instance *f, double t1, int *early, int *due) {
             return FMU_OK;
         }
         int status = FMU_OK;
+        if (sampled) f->s.t = ac_min(fmu_moment(f), t1);
         if (event) status = fmu_event(f, result == AC_EVENT ? f->switched : NULL, sampled, 0);
         else if (FMU_ASSERTS > 0) fmu_event_values(f), status = fmu_assert(f);
         if (status == FMU_OK && event && fmu_chatters(f, since, h, &close)) status = FMU_DISCARD;

@@ -337,6 +337,17 @@ static int fmu_samples_due(fmu_instance *f) {
     return any;
 }
 
+/* The time of the samples that are due, which an event may be before by rounding: what else switches at it, as it is hit
+   exactly, may not have switched yet. */
+static double fmu_moment(const fmu_instance *f) {
+    double t = f->s.t;
+    for (int k = 0; k < FMU_SAMPLES; k++) {
+        const double start = f->events[FMU_AT_SAMPLES + 2 * k], interval = f->events[FMU_AT_SAMPLES + 2 * k + 1];
+        if (f->due[k]) t = fmax(t, start + (fmu_passed(start, interval, f->s.t) - 1.0) * interval);
+    }
+    return t;
+}
+
 /* Whether there are samples at the time of the start itself; they are marked. */
 static int fmu_samples_at_start(fmu_instance *f) {
     int any = 0;
