@@ -431,7 +431,7 @@ class EventIteration(ModeSearch):
 
         An event that comes before a sample by rounding takes it along: behind the event it counts as passed.
         """
-        return [clock.slot for clock in self.clocks if clock.passed(t) > clock.passed(since)]
+        return [clock.slot for clock in self._due(since, t)]
 
     def moment(self, since: float, t: float) -> float:
         """Time of these samples, which an event at t may be before by rounding.
@@ -439,7 +439,10 @@ class EventIteration(ModeSearch):
         That is the time of all that happens with them: what else switches at the sample, which is hit exactly, may not
         have switched yet at t.
         """
-        return max([t, *(c.time(c.passed(t) - 1.0) for c in self.clocks if c.passed(t) > c.passed(since))])
+        return max([t, *(clock.time(clock.passed(t) - 1.0) for clock in self._due(since, t))])
+
+    def _due(self, since: float, t: float) -> list[Clock]:
+        return [clock for clock in self.clocks if clock.passed(t) > clock.passed(since)]
 
     # ---- start ------------------------------------------------------------------------------------
     def _guess_modes(self, t0: float, p: Floats, starts: Floats) -> None:

@@ -35,7 +35,7 @@ from .failure import explain
 from .hybrid_run import EVENT, HybridRun, Integrate, run_hybrid, warn
 from .hybrid_static import Stretch, static_integrate
 from .hybrid_tangents import Differentiated, run_with_tangents
-from .inputs import DrivenLowered, drive
+from .inputs import DrivenLowered, drive, kinks
 from .jit import compiled_for, values_are_known
 from .mode_search import Equations
 from .native_library import RESULTS, Floats
@@ -273,8 +273,8 @@ class _Stretches:
             w, beyond = compiled(*arguments)
             return np.asarray(w), np.asarray(beyond)
 
-        kinks = lowered.kinks(self.numbers) if isinstance(lowered, DrivenLowered) else None
-        return static_integrate(self.iteration, look, np.zeros(0) if kinks is None else np.asarray(kinks))
+        times = kinks(lowered, (None, self.numbers))
+        return static_integrate(self.iteration, look, np.zeros(0) if times is None else np.asarray(times))
 
     def differentiated(self) -> Differentiated:
         """Stretches with their derivatives."""

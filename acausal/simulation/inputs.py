@@ -42,11 +42,6 @@ class DrivenLowered:
         """Values of the inputs at time t."""
         return [jnp.asarray(signal(t, d), float) for signal, d in zip(self.signals, data, strict=True)]
 
-    def kinks(self, data: tuple[Any, ...]) -> Array | None:
-        """Times at which inputs have kinks, those of the points of tables, in order (n,); None if there are none."""
-        times = [d[0] for signal, d in zip(self.signals, data, strict=True) if signal is _table]
-        return jax.lax.stop_gradient(jnp.sort(jnp.concatenate(times))) if times else None
-
     def derivatives(self, t: Any, x: Array, w: Array, p: Any) -> tuple[Array, Array]:
         return self.lowered.derivatives(t, x, w, self.at(t, p))
 
@@ -62,6 +57,22 @@ class DrivenLowered:
 
     def sparsity(self) -> Any:
         return self.lowered.sparsity()
+
+
+def kinks(lowered: Any, p: Any) -> Array | None:
+    """Times at which the inputs of a driven system have kinks, those of the points of tables, in order (n,).
+
+    Args:
+        lowered: a driven system, or one without inputs.
+        p: its parameters; of a driven system `Driven`.
+
+    Returns:
+        The times; None if there are none.
+    """
+    if not isinstance(lowered, DrivenLowered):
+        return None
+    times = [data[0] for signal, data in zip(lowered.signals, p[1], strict=True) if signal is _table]
+    return jax.lax.stop_gradient(jnp.sort(jnp.concatenate(times))) if times else None
 
 
 def drive(system: Any, inputs: Mapping[str, Any]) -> tuple[DrivenLowered, tuple[Any, ...]]:

@@ -20,7 +20,7 @@ from .cache import ById, cache_of, without_keeping
 from .continuation import follow_in_time, undetermined
 from .controller import ROUNDING, ErrorControl
 from .failure import explain
-from .inputs import DrivenLowered, drive
+from .inputs import drive, kinks
 from .jit import compiled_for, ensure_x64, inside_jit, is_traced
 from .linear_solvers import AbstractLinearSolver, DenseLU
 from .lowered import Lowered, dimensions
@@ -286,9 +286,7 @@ def _solve(
     controller = settings.controller
     if controller is None and adaptive:
         smallest = ROUNDING * jnp.maximum(jnp.maximum(jnp.abs(t0), jnp.abs(t1)), jnp.abs(t1 - t0))
-        given: Any = p
-        kinks = lowered.kinks(given[1]) if isinstance(lowered, DrivenLowered) else None
-        controller = ErrorControl(rtol=rtol, atol=scale, smallest=smallest, kinks=kinks, states=n_x)
+        controller = ErrorControl(rtol=rtol, atol=scale, smallest=smallest, kinks=kinks(lowered, p), states=n_x)
     elif controller is None:
         controller = diffrax.ConstantStepSize()
     if not settings.has_dt:

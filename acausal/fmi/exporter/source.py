@@ -11,6 +11,7 @@ import numpy as np
 from ...lowering.c.generate import EXPLICIT, runtime_files, to_c
 from ...lowering.c.text import array
 from ...lowering.initial import EASE_ALGEBRAIC
+from ...simulation.native_library import METHODS
 from .events import event_families, event_tables
 from .guesses import guess_function
 from .variables import ExportError, FmuVariable, Place, Starts
@@ -22,7 +23,7 @@ LARGEST = 20_000
 """Operations up to which a model is written out in C."""
 FIXED = ("instance.h", "hybrid.h", "values.h", "advance.h", "directional.h")
 KINDS = ("me", "cs")
-SOLVERS = ("rodas5p", "rk4", "adams")
+SOLVERS = METHODS
 """Methods of co-simulation; the position is the number in ``instance.h``."""
 
 
