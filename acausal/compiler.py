@@ -152,7 +152,10 @@ def _passes(
         with_start[assignment.targets] = True
     problem = initial_problem(reduced, lowered, initial, with_start)
     stages = Stages(flat, reduced, low_index, schedule, counts, clock.seconds)
-    return System(stages, program, lowered, problem, written, make_hybrid(flat, *extended, schedule))
+    hybrid = make_hybrid(flat, *extended, schedule)
+    if hybrid is not None:
+        lowered.conditions = hybrid.roots.families
+    return System(stages, program, lowered, problem, written, hybrid)
 
 
 def located_twin(system: System) -> System:

@@ -27,7 +27,7 @@ class PolynomialDriven:
         self.places = places
         self.n_x, self.n_w, self.n_g = lowered.n_x, lowered.n_w, lowered.n_g
         self.x_nominal, self.w_nominal = lowered.x_nominal, lowered.w_nominal
-        self.conserved = lowered.conserved
+        self.conserved, self.time_tables = lowered.conserved, lowered.time_tables
 
     def at(self, t: Any, p: Driven) -> Array:
         """The parameter vector at time t."""

@@ -13,6 +13,7 @@ from jax import Array
 
 from ..errors import SimulationError
 from ..simulation.controller import ROUNDING, ErrorControl
+from ..simulation.kinks import kinks
 from ..simulation.projection import Projected, WithAlgebraic, project
 from ..simulation.rk4 import RK4
 from ..simulation.rodas5p import Rodas5P
@@ -114,7 +115,8 @@ def _diffrax(lowered: Any, solver: Any, dt: float | None, rtol: float, atol: flo
     def advance(t: Any, h: Any, x: Array, w: Array, p: Any, hint: Any) -> Advanced:
         if adaptive:
             smallest = ROUNDING * jnp.maximum(jnp.abs(t + h), h)
-            controller: Any = ErrorControl(rtol=rtol, atol=atol * scale, smallest=smallest, states=n_x)
+            at = kinks(lowered, p)
+            controller: Any = ErrorControl(rtol=rtol, atol=atol * scale, smallest=smallest, kinks=at, states=n_x)
         else:
             controller = diffrax.ConstantStepSize()
         y0, args = (jnp.concatenate([x, w]), p) if together else (x, (p, w))

@@ -22,6 +22,7 @@ from .balanced import solve_balanced
 from .environment import Environment
 from .newton import newton_root
 from .repetition import Repetition, emit, plan
+from .time_tables import TimeTable, time_tables
 
 WIDE = 24
 """Sums of more terms than this are emitted as a gather and a reduction."""
@@ -44,12 +45,18 @@ class Lowered:
         self.x_nominal = nominal[schedule.states]
         self.w_nominal = nominal[schedule.tears]
         self.nominal = nominal
+        self.conditions: list[Family] = []
         self._global: dict[int, Any] = {}
         self._plans: dict[tuple[int, ...], list[Group | Repetition]] = {}
         derivative_of = schedule.reduced.derivative_of
         self.dx_ids = derivative_of[schedule.states]
         self.tear_position = np.full(self.n_ids, -1, np.int64)  # place among the algebraic unknowns
         self.tear_position[schedule.tears] = np.arange(self.n_w)
+
+    @cached_property
+    def time_tables(self) -> tuple[TimeTable, ...]:
+        """Tables over time in the equations and in the conditions of events."""
+        return time_tables(self.schedule, self.conditions)
 
     def attach(self, observed: tuple[Ints, Ints]) -> None:
         """Tell which reduced variable (with which sign) every variable of the flat model is."""

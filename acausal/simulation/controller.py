@@ -12,6 +12,8 @@ import jax.numpy as jnp
 from diffrax import RESULTS, AbstractAdaptiveStepSizeController
 from jax import Array
 
+from .kinks import Kinks
+
 ROUNDING = 1e-14
 """Smallest step as a fraction of the time: some tens of the spacing of floating-point numbers."""
 JUMP = 1e3
@@ -43,7 +45,7 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
     `JUMP` tolerances, or one that is not finite, or `FORCED_STEPS` forced steps in a row end the solve with
     `dt_min_reached`: there the solution has ended.
 
-    No step goes beyond a kink of the inputs: what happens between two evaluations there, as a pulse, would not be seen.
+    No step goes beyond a kink of inputs or tables over time: a pulse between two evaluations would not be seen.
 
     Source: Gustafsson (1994), Control-theoretic techniques for stepsize selection in implicit Runge-Kutta methods, ACM
     TOMS 20; Hairer & Wanner, *Solving Ordinary Differential Equations II*, IV.8.
@@ -54,13 +56,13 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
         states: how many of the unknowns, the first ones, are states; None for all.
         smallest: smallest step at the far end of the time axis [s]; elsewhere the smallest step is that fraction of
             the time, so that a run over 1e11 s can begin with steps of microseconds.
-        kinks: times at which steps end [s], in order (n,); None for none.
+        kinks: where steps end; None for nowhere.
     """
 
     rtol: Any
     atol: Any
     smallest: Any
-    kinks: Any = None
+    kinks: Kinks | None = None
     states: int | None = eqx.field(static=True, default=None)
     norm: Callable[[Any], Any] = eqx.field(static=True, default=largest)
 
@@ -68,7 +70,7 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
         """For the time of diffrax, which runs forwards where the run goes backwards: the kinks alone depend on it."""
         if self.kinks is None:
             return self
-        return eqx.tree_at(lambda control: control.kinks, self, jnp.sort(self.kinks * direction))
+        return eqx.tree_at(lambda control: control.kinks, self, self.kinks.reversed(direction))
 
     def init(
         self, terms: Any, t0: Any, t1: Any, y0: Any, dt0: Any, args: Any, func: Any, error_order: Any
@@ -118,8 +120,7 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
     def _end(self, t: Any, step: Any, end: Any) -> tuple[Any, Any]:
         """End of the step from t on, by the end of the run or the next kink, and what was planned if it is cut."""
         if self.kinks is not None:
-            k = jnp.searchsorted(self.kinks, t + self._floor(t), side="right")
-            end = jnp.minimum(end, jnp.append(self.kinks, jnp.inf)[k])
+            end = jnp.minimum(end, self.kinks.after(t, self._floor(t)))
         size, planned = _limited(step, end - t)
         return jnp.where(size >= end - t, end, t + size), planned
 

@@ -35,8 +35,9 @@ from .failure import explain
 from .hybrid_run import EVENT, HybridRun, Integrate, run_hybrid, warn
 from .hybrid_static import Stretch, static_integrate
 from .hybrid_tangents import Differentiated, run_with_tangents
-from .inputs import DrivenLowered, drive, kinks
+from .inputs import DrivenLowered, drive
 from .jit import compiled_for, values_are_known
+from .kinks import kinks
 from .mode_search import Equations
 from .native_library import RESULTS, Floats
 from .rodas5p import Rodas5P
@@ -273,8 +274,13 @@ class _Stretches:
             w, beyond = compiled(*arguments)
             return np.asarray(w), np.asarray(beyond)
 
-        times = kinks(lowered, (None, self.numbers))
-        return static_integrate(self.iteration, look, np.zeros(0) if times is None else np.asarray(times))
+        @jax.jit
+        def kink(t: Any, p: Any) -> Any:
+            found = kinks(lowered, (p, self.numbers))
+            return jnp.inf if found is None else found.after(t)
+
+        smooth = kinks(lowered, (np.zeros(0), self.numbers)) is None
+        return static_integrate(self.iteration, look, lambda t, p: np.inf if smooth else float(kink(t, p)))
 
     def differentiated(self) -> Differentiated:
         """Stretches with their derivatives."""

@@ -78,8 +78,14 @@ class _Path:
         del self.times[:k], self.known[:k]
 
 
-def static_integrate(iteration: EventIteration, look: Look, kinks: Floats) -> Integrate:
-    """Stretches of a model without states, whose inputs have kinks at these times (n,): it is looked at there, too."""
+def static_integrate(iteration: EventIteration, look: Look, kink: Callable[[float, Floats], float]) -> Integrate:
+    """Stretches of a model without states; it is looked at where its inputs have kinks, too.
+
+    Args:
+        iteration: carries out its events.
+        look: follows its equations.
+        kink: the first time behind another at which inputs have a kink, with these parameters and slots.
+    """
     hybrid = iteration.hybrid
 
     def integrate(
@@ -90,8 +96,7 @@ def static_integrate(iteration: EventIteration, look: Look, kinks: Floats) -> In
         kept = [np.tile(z, (int((save <= t).sum()) if not (end_open and stop <= t) else 0, 1))]
         n, here = len(kept[0]), t
         while here < stop:
-            to_kink = kinks[np.searchsorted(kinks, here, side="right") :][:1]
-            target = float(min([*save[n : n + 1], *to_kink, stop]))
+            target = float(min([*save[n : n + 1], kink(here, p), stop]))
             around = scan.first(here, target)
             if around is not None:
                 low, high = around

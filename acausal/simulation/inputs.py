@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array
@@ -31,7 +30,7 @@ class DrivenLowered:
         self.signals = tuple(signals)
         self.n_x, self.n_w, self.n_g = lowered.n_x, lowered.n_w, lowered.n_g
         self.x_nominal, self.w_nominal = lowered.x_nominal, lowered.w_nominal
-        self.conserved = lowered.conserved
+        self.conserved, self.time_tables = lowered.conserved, lowered.time_tables
 
     def at(self, t: Any, p: Driven) -> Array:
         """The parameter vector at time t."""
@@ -57,22 +56,6 @@ class DrivenLowered:
 
     def sparsity(self) -> Any:
         return self.lowered.sparsity()
-
-
-def kinks(lowered: Any, p: Any) -> Array | None:
-    """Times at which the inputs of a driven system have kinks, those of the points of tables, in order (n,).
-
-    Args:
-        lowered: a driven system, or one without inputs.
-        p: its parameters; of a driven system `Driven`.
-
-    Returns:
-        The times; None if there are none.
-    """
-    if not isinstance(lowered, DrivenLowered):
-        return None
-    times = [data[0] for signal, data in zip(lowered.signals, p[1], strict=True) if signal is _table]
-    return jax.lax.stop_gradient(jnp.sort(jnp.concatenate(times))) if times else None
 
 
 def drive(system: Any, inputs: Mapping[str, Any]) -> tuple[DrivenLowered, tuple[Any, ...]]:
@@ -126,6 +109,11 @@ def _constant(t: Any, value: Any) -> Any:
 
 def _table(t: Any, table: tuple[Array, Array]) -> Array:
     return jnp.interp(t, *table)
+
+
+def is_table(signal: Callable[..., Any]) -> bool:
+    """Whether a signal is a table, whose numbers begin with the times of its points."""
+    return signal is _table
 
 
 _OWN = (_constant, _table)

@@ -7,6 +7,7 @@ from typing import Any, Protocol
 import numpy as np
 from jax import Array
 
+from acausal.lowering.time_tables import TimeTable
 from acausal.passes.first_integrals import FirstIntegrals
 
 
@@ -25,6 +26,11 @@ class Lowered(Protocol):
     @property
     def conserved(self) -> FirstIntegrals:
         """Linear first integrals."""
+        ...
+
+    @property
+    def time_tables(self) -> tuple[TimeTable, ...]:
+        """Tables over time, at whose points steps end."""
         ...
 
     def derivatives(self, t: Any, x: Array, w: Array, p: Array) -> tuple[Array, Array]:

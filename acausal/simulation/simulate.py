@@ -20,8 +20,9 @@ from .cache import ById, cache_of, without_keeping
 from .continuation import follow_in_time, undetermined
 from .controller import ROUNDING, ErrorControl
 from .failure import explain
-from .inputs import drive, kinks
+from .inputs import drive
 from .jit import compiled_for, ensure_x64, inside_jit, is_traced
+from .kinks import kinks
 from .linear_solvers import AbstractLinearSolver, DenseLU
 from .lowered import Lowered, dimensions
 from .projection import Conserving, Projected, WithAlgebraic, project

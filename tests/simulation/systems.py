@@ -23,6 +23,7 @@ class HandLowered:
     w_nominal = np.ones(0)
     n_g = 0
     conserved = FirstIntegrals(0, np.zeros(0, int), np.zeros(0, int), np.zeros(0))
+    time_tables = ()
 
     @property
     def n_x(self) -> int:

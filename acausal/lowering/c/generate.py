@@ -18,6 +18,7 @@ from ..hybrid import Hybrid
 from .emit import Hoisted, Writer
 from .factor import Factorisation, SingularPattern, factor_lines, plan_factors, solve_lines
 from .large import large_file
+from .points import point_lines
 from .roots import root_tables
 from .straight import TIME_COLUMN, Straight, family_residuals, reduce_strength, write_out
 from .tableau import tableau_lines
@@ -347,8 +348,8 @@ class _Small:
         )
         parts = [
             *head, '#include "acausal.h"', *arrays, *tableau_lines(), *self.parameters(False), constants, *functions,
-            *factor, f"#ifdef {TANGENTS}", *self.parameters(True), constants_tangent, *tangents, along,
-            "#endif", '#include "solver.h"', '#include "start.h"',
+            *factor, *point_lines(self.lowered), f"#ifdef {TANGENTS}", *self.parameters(True), constants_tangent,
+            *tangents, along, "#endif", '#include "solver.h"', '#include "start.h"',
         ]  # fmt: skip
         return "\n".join(parts) + "\n"
 

@@ -11,6 +11,7 @@ from ...dae.coloring import color_columns
 from ..sparsity import condition_pattern
 from .factor import plan_factors
 from .families import Families, factor_tables, functions
+from .points import point_lines
 from .tableau import tableau_lines
 from .text import array, braces
 
@@ -65,7 +66,8 @@ def large_file(lowered: Lowered, n_par: int, n_inputs: int, hybrid: Hybrid | Non
     )
     none = [array("int", "ac_k_row", []), array("int", "ac_k_column", []), array("double", "ac_k_value", [])]
     parts = [
-        *head, '#include "acausal.h"', *none, *tableau_lines(), constants, *own, "#ifdef AC_TANGENTS", constants_along,
+        *head, '#include "acausal.h"', *none, *tableau_lines(), constants, *own,
+        *point_lines(lowered), "#ifdef AC_TANGENTS", constants_along,
         *along, "#endif", '#include "families.h"', '#include "solver.h"',
     ]  # fmt: skip
     return "\n".join(parts) + "\n", tables.arrays

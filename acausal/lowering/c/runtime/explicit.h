@@ -206,7 +206,7 @@ static int ac_adams(ac_problem *q, ac_work *w, ac_explicit_work *e) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
         if (ac_watched(q)) return AC_STOPPED;
         const double t = q->t_end, floor_ = ac_max(1e-14 * fabs(t), 1e-10 * q->smallest);
-        const double to = ac_smooth_until(q, w, t, floor_), left = fabs(to - t);
+        const double to = ac_smooth_until(q, w, t, floor_, 0), left = fabs(to - t);
         const int last = h >= left * (1.0 - 1e-12);
         if (h < floor_ && !last) return AC_SMALLEST_STEP;
         /* to a kink two equal steps rather than one and a short rest, behind which the steps would have to grow again */

@@ -2,6 +2,7 @@
 
    The generated file has defined, before it includes this one:
      AC_N, AC_NX, AC_NZ (nonzeros of J), AC_NF (numbers of the factors), AC_NC, AC_NU, AC_NG, AC_NK, AC_NKZ,
+     AC_NT with ac_points, ac_point_first, ac_point_x (tables over time),
      ac_constants, ac_field, ac_field_jacobian, ac_factor, ac_solve, ac_nominal, ac_row, ac_column,
      and for tangents ac_constants_tangent, ac_field_tangent, ac_jacobian_tangent, ac_solve_vector.
    AC_TANGENTS and AC_EXPLICIT ask for what takes a compiler long and few runs need: tangents, and explicit methods.
@@ -172,9 +173,31 @@ static inline double ac_point_beyond(const ac_signal *s, double t, double direct
     return lo > 0 ? s->t[lo - 1] : -INFINITY;
 }
 
-/* Up to where the inputs are smooth, from t towards q->t1: they have a kink at each of their points. A step beyond one
-   would pass over what happens there, as a pulse between two evaluations. Points nearer than `least` count as reached. */
-static double ac_smooth_until(const ac_problem *q, const ac_work *w, double t, double least) {
+#if AC_NT > 0
+/* Up to just before a table over time is read at its next point, from t on; from there to just behind, in a step of the
+   size `least` or of that of rounding: within all other steps each table has one slope, also where a point moves with a
+   parameter. If not `crossed`, up to just behind the point at once. */
+static double ac_table_point(
+    const double *x, int n, double at, double slope, double t, double direction, double least, int crossed) {
+    int lo = 0, hi = n; /* the first point above */
+    while (lo < hi) {
+        const int mid = (lo + hi) / 2;
+        if (x[mid] > at) hi = mid;
+        else lo = mid + 1;
+    }
+    const int k = direction * slope > 0.0 ? lo : lo - 1;
+    if (k < 0 || k >= n || slope == 0.0) return direction * INFINITY;
+    const double point = t + (x[k] - at) / slope, rounding = 1e-15 * (fabs(point) + fabs(at / slope));
+    const double gap = direction * (point - t);
+    if (crossed && gap - rounding > least) return point - direction * rounding;
+    return t + direction * ac_max(least, gap + rounding);
+}
+#endif
+
+/* Up to where inputs and tables over time are smooth, from t towards q->t1: they have a kink at each of their points. A
+   step beyond one would pass over what happens there, as a pulse between two evaluations. Points of inputs that are nearer
+   than `least` count as reached; those of tables are `crossed` in a step of that size. */
+static double ac_smooth_until(const ac_problem *q, const ac_work *w, double t, double least, int crossed) {
     const double direction = q->t1 >= t ? 1.0 : -1.0;
     double to = q->t1;
     for (int i = 0; i < AC_NU; i++) {
@@ -182,6 +205,15 @@ static double ac_smooth_until(const ac_problem *q, const ac_work *w, double t, d
         const double point = ac_point_beyond(w->m.signals + i, t + direction * least, direction);
         if (direction * (to - point) > 0.0) to = point;
     }
+#if AC_NT > 0
+    double at[AC_NT], slope[AC_NT];
+    ac_points(&w->m, t, at, slope);
+    for (int k = 0; k < AC_NT; k++) {
+        const int first = ac_point_first[k], n = ac_point_first[k + 1] - first;
+        const double point = ac_table_point(ac_point_x + first, n, at[k], slope[k], t, direction, least, crossed);
+        if (direction * (to - point) > 0.0) to = point;
+    }
+#endif
     return to;
 }
 

@@ -134,7 +134,7 @@ static int ac_step(ac_problem *q, ac_work *w, ac_control *k, double t) {
     for (;;) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
         if (ac_watched(q)) return AC_STOPPED;
-        k->to = ac_smooth_until(q, w, t, least);
+        k->to = ac_smooth_until(q, w, t, least, 1);
         ac_limit(k, fabs(k->to - t), least);
         ac_refresh(w, k, t);
         const double step = direction * k->size, d = 1.0 / (ac_gamma * step);
