@@ -34,7 +34,7 @@ $(VENV)/.installed-bench: pyproject.toml
 	$(BIN)/python -c "import pathlib; pathlib.Path('$@').touch()"
 
 test: $(VENV)/.installed-test ## the tests that are not slow
-	$(BIN)/python -m pytest -n $(WORKERS) $(ARGS)
+	$(BIN)/python -m pytest -n $(WORKERS) --dist worksteal $(ARGS)
 
 slow: $(VENV)/.installed-test ## the slow tests
 	$(BIN)/python -m pytest -m slow $(ARGS)
