@@ -125,7 +125,7 @@ def test_derivatives_through_events(name: str) -> None:
         assert_allclose(found[:, k], difference, rtol=2e-5, atol=2e-6 * max(1.0, np.abs(difference).max()))
 
 
-@pytest.mark.parametrize("name", cases(slow={"stick_slip", "full_wave", "mixed", "wall"}))
+@pytest.mark.parametrize("name", cases(slow={"stick_slip", "full_wave", "mixed", "wall", "thermostat", "sampled"}))
 def test_both_engines_have_the_same_derivatives(name: str) -> None:
     case = CASES[name]
     x = jnp.array([*case.parameters.values(), *case.initial.values()])

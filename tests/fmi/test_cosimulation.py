@@ -44,7 +44,7 @@ def test_two_participants_with_feedback(decay):
 
 
 @pytest.mark.parametrize("method", ["jacobi", "gauss-seidel"])
-@pytest.mark.parametrize("order", [0, 1])
+@pytest.mark.parametrize("order", [pytest.param(0, marks=pytest.mark.slow), 1])
 def test_order_of_convergence(masses, method, order):
     """Extrapolation of degree k makes a global error of order k + 1."""
     errors = []

@@ -20,6 +20,7 @@ from .export_models import Ball, Implicit, Oscillator, Rounded, Sampled
 from .export_unit import exported
 
 BOTH = pytest.mark.parametrize("version", ("2.0", "3.0"))
+ONE_IS_QUICK = pytest.mark.parametrize("version", [pytest.param("2.0", marks=pytest.mark.slow), "3.0"])
 
 
 def load(model: type[Component], version: str) -> ac.fmi.Fmu:
@@ -87,7 +88,7 @@ def driven(part: Component) -> Component:
     return Driven()
 
 
-@BOTH
+@ONE_IS_QUICK
 @pytest.mark.parametrize("model", [Oscillator, Implicit])
 def test_a_component_is_the_model(model, version):
     unit = load(model, version)
@@ -97,7 +98,7 @@ def test_a_component_is_the_model(model, version):
         np.testing.assert_allclose(found[f"part_.{name}"], wanted[f"part_.{name}"], atol=2e-7)
 
 
-@BOTH
+@ONE_IS_QUICK
 def test_values_of_parameters(version):
     unit = load(Oscillator, version)
     part = unit.component(parameters={"k": 9.0})
@@ -195,7 +196,7 @@ def test_a_unit_behind_a_flange(version):
     np.testing.assert_allclose(found["body.flange.f"], -50.0 * found["body.s"] - found["body.v"], rtol=1e-6, atol=1e-6)
 
 
-@BOTH
+@ONE_IS_QUICK
 def test_a_minus_sign_in_an_adapter(version):
     """A unit that counts its force the other way round pushes the body away."""
     body = load(Body, version).component(connectors={"flange": (tr.Flange, {"s": "position", "f": "-force"})})

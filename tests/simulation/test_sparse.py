@@ -79,6 +79,7 @@ def solve(y0, rate, linear_solver, rtol=1e-7):
     return solved.ys[-1]
 
 
+@pytest.mark.slow
 @needs_klu
 def test_ladder_against_dense():
     n = 100
