@@ -2,7 +2,8 @@
 
 Each file has about 40 points of the signals that the library's own regression tests compare, away from events, in the
 tube of 2e-3. Official trajectories, computed with a tolerance of 1e-6, lose the phase of undamped oscillations; such
-models are compared as long as theirs is right to 1e-3. Those of `JointUSR` and `JointUSP` bounce at a dead centre.
+models are compared as long as theirs is right to 1e-3. Those of `JointUSR` and `JointUSP` bounce at a dead centre. The
+loop of four equal rods (`RevolutePlanarLoopConstraint`) is compared until all are in one line: two ways meet there.
 """
 
 from __future__ import annotations
