@@ -164,12 +164,13 @@ class _State(NamedTuple):
 
 
 def _limited(step: Any, left: Any) -> tuple[Any, Any]:
-    """The step where `left` is left of the run, and what was planned if it is cut.
+    """The step where `left` is left to where it must end, and what was planned if it is cut.
 
     Two equal steps rather than one and a short rest.
     """
-    last, half = step >= left * (1.0 - 1e-12), 0.5 * left
-    return jnp.where(last, step, jnp.minimum(step, half)), jnp.where(last | (step <= half), 0.0, step)
+    last = step >= left * (1.0 - 1e-12)
+    size = jnp.where(last, left, jnp.minimum(step, 0.5 * left))
+    return size, jnp.where(step <= size, 0.0, step)
 
 
 def _flat(tree: Any) -> Array:

@@ -46,12 +46,19 @@ class Kinks(eqx.Module):
             least: the smallest step [s].
         """
         following = jnp.append(self.times, jnp.inf)[jnp.searchsorted(self.times, t + least, side="right")]
-        for table in self.tables:
-            following = jnp.minimum(following, self._point(table, t, least))
+        for points, alike in self._alike().items():
+            following = jnp.minimum(following, jnp.min(self._next(jnp.asarray(points), alike, t, least)))
         return following
 
-    def _point(self, table: TimeTable, t: Any, least: Any) -> Array:
-        """Up to just before a table is read at its next point, and from there to just behind it.
+    def _alike(self) -> dict[tuple[float, ...], list[TimeTable]]:
+        """Tables by their points: those of many instances of a component are looked up together."""
+        found: dict[tuple[float, ...], list[TimeTable]] = {}
+        for table in self.tables:
+            found.setdefault(table.points, []).append(table)
+        return found
+
+    def _next(self, x: Array, tables: list[TimeTable], t: Any, least: Any) -> Array:
+        """Up to just before tables are read at their next points, and from there to just behind, (number of tables,).
 
         Within the steps between two points each table has one slope, also where a point moves with a parameter.
         """
@@ -59,9 +66,9 @@ class Kinks(eqx.Module):
         def leaf(node: Expr) -> Any:
             return self.direction * t if node.op == "time" else self.p[node.value]
 
-        at, slope = evaluate((table.argument, table.slope), leaf, jnp)
-        slope = jnp.asarray(slope * self.direction, float)
-        x = jnp.asarray(table.points)
+        values = evaluate([e for table in tables for e in (table.argument, table.slope)], leaf, jnp)
+        at, slope = (jnp.stack([jnp.asarray(v, float) for v in values[k::2]]) for k in (0, 1))
+        slope = slope * self.direction
         first = jnp.searchsorted(x, at, side="right")
         x = jnp.concatenate([jnp.array([-jnp.inf]), x, jnp.array([jnp.inf])])
         moving = slope != 0.0
