@@ -16,7 +16,7 @@ from ..symbolic.traverse import contains, leaves, postorder, substitute
 
 if TYPE_CHECKING:
     from ..language.flat_model import Family
-    from ..passes.schedule import Group, Kernel, Schedule
+    from ..passes.schedule import Group, Schedule
 
 SLOPES = 2
 """Orders of the derivatives of a table that its points matter for: the value and its slope."""
@@ -44,15 +44,13 @@ def time_tables(schedule: Schedule, conditions: Iterable[Family] = ()) -> tuple[
     and a rate.
     """
     kernels = {id(g.kernel): g.kernel for g in schedule.groups}
-    calling = {key for key, kernel in kernels.items() if any(map(_is_table, postorder(_expressions(kernel))))}
-    further = [
-        f for f in (*schedule.invariants, *conditions) if any(map(_is_table, postorder((f.residual,))))
-    ]  # fmt: skip
+    calling = {key for key, kernel in kernels.items() if any(map(_is_table, postorder(kernel.expressions)))}
+    further = [f for f in (*schedule.invariants, *conditions) if any(map(_is_table, postorder((f.residual,))))]
     if not calling and not further:
         return ()
     flat = schedule.reduced.flat
     inputs = range(flat.n_par, flat.n_par + len(flat.inputs))
-    timed = {key for key, kernel in kernels.items() if leaves(*_expressions(kernel), op="time")}
+    timed = {key for key, kernel in kernels.items() if leaves(*kernel.expressions, op="time")}
     known: dict[int, Expr] = {}
     found: dict[tuple[tuple[float, ...], int], TimeTable] = {}
     for group in schedule.groups:
@@ -65,7 +63,7 @@ def time_tables(schedule: Schedule, conditions: Iterable[Family] = ()) -> tuple[
                 if not group.kernel.tears and _of_time(value, inputs):
                     known[int(group.var_rows[k, unknown])] = names[var(unknown)] = value
             if key in calling:
-                _add(_expressions(group.kernel), names, inputs, found)
+                _add(group.kernel.expressions, names, inputs, found)
     for family in further:
         for variables, parameters in zip(family.var_rows, family.par_rows, strict=True):
             _add((family.residual,), _names(variables, parameters, known), inputs, found)
@@ -74,12 +72,6 @@ def time_tables(schedule: Schedule, conditions: Iterable[Family] = ()) -> tuple[
 
 def _is_table(node: Expr) -> bool:
     return node.op == "call" and isinstance(node.value, Table) and len(node.value.order) < SLOPES
-
-
-def _expressions(kernel: Kernel) -> list[Expr]:
-    return [
-        *(e for _, e in kernel.steps), *kernel.residuals, *(e for line in kernel.matrix for e in line), *kernel.rhs,
-    ]  # fmt: skip
 
 
 def _passing_on(group: Group, known: Mapping[int, Expr]) -> Iterator[int]:

@@ -55,6 +55,12 @@ class Kernel:
         """Whether the tears are unknowns of the solver."""
         return bool(self.residuals)
 
+    @property
+    def expressions(self) -> list[Expr]:
+        """All that is evaluated, in order."""
+        entries = [e for line in self.matrix for e in line]
+        return [*(e for _, e in self.steps), *self.residuals, *entries, *self.rhs]
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Group:

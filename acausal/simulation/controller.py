@@ -95,7 +95,7 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
         leaves = [*jax.tree.leaves(y1_candidate), *jax.tree.leaves(y_error)]
         finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(leaf)) for leaf in leaves]))
         good = finite & (error <= 1.0)
-        floor = self._floor(t0)
+        floor = smallest_step(t0, self.smallest)
         at_floor = h <= 1.5 * floor
         of_states = jnp.max(jnp.abs(_flat(scaled))[: self.states], initial=0.0)
         force = at_floor & ~good & finite & (of_states <= JUMP)
@@ -113,14 +113,10 @@ class ErrorControl(AbstractAdaptiveStepSizeController[Any, Any]):
         state = _State(before, error_before, ~kept, forced, state.end, planned)
         return kept, next_t0, next_t1, False, state, result
 
-    def _floor(self, t: Any) -> Any:
-        """The smallest step at time t [s]."""
-        return jnp.maximum(ROUNDING * jnp.abs(t), 1e-10 * self.smallest)
-
     def _end(self, t: Any, step: Any, end: Any) -> tuple[Any, Any]:
         """End of the step from t on, by the end of the run or the next kink, and what was planned if it is cut."""
         if self.kinks is not None:
-            end = jnp.minimum(end, self.kinks.after(t, self._floor(t)))
+            end = jnp.minimum(end, self.kinks.after(t, smallest_step(t, self.smallest)))
         size, planned = _limited(step, end - t)
         return jnp.where(size >= end - t, end, t + size), planned
 
@@ -161,6 +157,11 @@ class _State(NamedTuple):
     forced: Any
     end: Any
     planned: Any
+
+
+def smallest_step(t: Any, smallest: Any) -> Any:
+    """The smallest step at time t [s], of a run with the smallest step `smallest` at its far end."""
+    return jnp.maximum(ROUNDING * jnp.abs(t), 1e-10 * smallest)
 
 
 def _limited(step: Any, left: Any) -> tuple[Any, Any]:

@@ -27,7 +27,7 @@ from .arguments import asks_for_steps, is_saveat
 from .cache import ById
 from .conditions import sides
 from .continuation import followed
-from .controller import ROUNDING
+from .controller import ROUNDING, smallest_step
 from .engines import all_signals, output_times
 from .event_iteration import EventIteration
 from .event_tangents import EventTangents
@@ -37,7 +37,7 @@ from .hybrid_static import Stretch, static_integrate
 from .hybrid_tangents import Differentiated, run_with_tangents
 from .inputs import DrivenLowered, drive
 from .jit import compiled_for, values_are_known
-from .kinks import kinks
+from .kinks import has_kinks, kinks
 from .mode_search import Equations
 from .native_library import RESULTS, Floats
 from .rodas5p import Rodas5P
@@ -275,12 +275,12 @@ class _Stretches:
             return np.asarray(w), np.asarray(beyond)
 
         @jax.jit
-        def kink(t: Any, p: Any) -> Any:
+        def kink(t: Any, stop: Any, p: Any) -> Any:
             found = kinks(lowered, (p, self.numbers))
-            return jnp.inf if found is None else found.after(t)
+            return found and found.after(t, smallest_step(t, ROUNDING * (stop - t)))
 
-        smooth = kinks(lowered, (np.zeros(0), self.numbers)) is None
-        return static_integrate(self.iteration, look, lambda t, p: np.inf if smooth else float(kink(t, p)))
+        smooth = not has_kinks(lowered)
+        return static_integrate(self.iteration, look, lambda *now: np.inf if smooth else float(kink(*now)))
 
     def differentiated(self) -> Differentiated:
         """Stretches with their derivatives."""

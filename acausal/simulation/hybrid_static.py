@@ -78,13 +78,14 @@ class _Path:
         del self.times[:k], self.known[:k]
 
 
-def static_integrate(iteration: EventIteration, look: Look, kink: Callable[[float, Floats], float]) -> Integrate:
+def static_integrate(iteration: EventIteration, look: Look, kink: Callable[[float, float, Floats], float]) -> Integrate:
     """Stretches of a model without states; it is looked at where its inputs have kinks, too.
 
     Args:
         iteration: carries out its events.
         look: follows its equations.
-        kink: the first time behind another at which inputs have a kink, with these parameters and slots.
+        kink: (time, end of the stretch, parameters and slots) to the first time behind at which inputs or tables over
+            time have a kink.
     """
     hybrid = iteration.hybrid
 
@@ -96,7 +97,7 @@ def static_integrate(iteration: EventIteration, look: Look, kink: Callable[[floa
         kept = [np.tile(z, (int((save <= t).sum()) if not (end_open and stop <= t) else 0, 1))]
         n, here = len(kept[0]), t
         while here < stop:
-            target = float(min([*save[n : n + 1], kink(here, p), stop]))
+            target = float(min([*save[n : n + 1], kink(here, stop, p), stop]))
             around = scan.first(here, target)
             if around is not None:
                 low, high = around

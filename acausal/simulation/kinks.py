@@ -38,12 +38,12 @@ class Kinks(eqx.Module):
         """For time times `direction`."""
         return Kinks(jnp.sort(self.times * direction), self.p, self.tables, self.direction * direction)
 
-    def after(self, t: Any, least: Any = 0.0) -> Array:
+    def after(self, t: Any, least: Any) -> Array:
         """The next kink behind t; infinity where there is none.
 
         Args:
             t: time [s].
-            least: the smallest step [s].
+            least: the smallest step [s], above zero: a table that starts on one of its points crosses it in that step.
         """
         following = jnp.append(self.times, jnp.inf)[jnp.searchsorted(self.times, t + least, side="right")]
         for points, alike in self._alike().items():
@@ -79,6 +79,11 @@ class Kinks(eqx.Module):
         return jnp.where(moving, jnp.where(before - t > least, before, across), jnp.inf)
 
 
+def has_kinks(lowered: Any) -> bool:
+    """Whether a system has kinks, driven or not."""
+    return bool(lowered.time_tables) or (isinstance(lowered, DrivenLowered) and any(map(is_table, lowered.signals)))
+
+
 def kinks(lowered: Any, p: Any) -> Kinks | None:
     """The kinks of a system; None if there are none.
 
@@ -86,11 +91,10 @@ def kinks(lowered: Any, p: Any) -> Kinks | None:
         lowered: a system, driven or not.
         p: its parameters; of a driven one a tuple that begins with the parameter vector.
     """
+    if not has_kinks(lowered):
+        return None
     driven = isinstance(lowered, DrivenLowered)
     times = [d[0] for signal, d in zip(lowered.signals, p[1], strict=True) if is_table(signal)] if driven else []
-    tables = lowered.time_tables
-    if not times and not tables:
-        return None
     vector = jnp.asarray(p[0] if isinstance(p, tuple) else p)
-    found = Kinks(jnp.sort(jnp.concatenate([jnp.zeros(0), *times])), vector, tables)
+    found = Kinks(jnp.sort(jnp.concatenate([jnp.zeros(0), *times])), vector, lowered.time_tables)
     return jax.lax.stop_gradient(found)

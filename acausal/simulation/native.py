@@ -273,8 +273,7 @@ def operations(lowered: Any) -> int:
     total = 0
     for group in lowered.schedule.groups:
         kernel = group.kernel
-        roots = [e for _, e in kernel.steps] + list(kernel.residuals) + [e for line in kernel.matrix for e in line]
-        total += group.size * (len(postorder(roots)) + len(kernel.matrix) ** 3 // 10)
+        total += group.size * (len(postorder(kernel.expressions)) + len(kernel.matrix) ** 3 // 10)
     return total
 
 

@@ -21,47 +21,48 @@ PULSES = ac.table(TIMES, VALUES)
 """Two triangles of height 2 and of this width, with their peaks at 0.3 and 0.7."""
 
 
-class Counter(Component):
+class Pulsed(Component):
+    """Pulses of a period, and how many there were."""
+
+    period: Parameter = Parameter(1.0)
+    start: Parameter = Parameter(0.0)
+    s: Variable = Variable()
+    n: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield self.period * self.s == ac.time - self.start
+
+
+class Counter(Pulsed):
     """Integrates the pulses, and counts them."""
 
-    period: Parameter = Parameter(1.0)
-    start: Parameter = Parameter(0.0)
-    s: Variable = Variable()
     x: Variable = Variable(start=0.0, fixed=True)
-    n: Discrete = Discrete(start=0)
 
     def equations(self) -> Equations:
-        u = PULSES(self.s)
-        yield self.period * self.s == ac.time - self.start
-        yield der(self.x) == u
-        yield when(u > 0.5, {self.n: pre(self.n) + 1})
+        yield from super().equations()
+        yield der(self.x) == PULSES(self.s)
+        yield when(PULSES(self.s) > 0.5, {self.n: pre(self.n) + 1})
 
 
-class Unfelt(Component):
+class Unfelt(Pulsed):
     """The pulses are in the condition alone."""
 
-    period: Parameter = Parameter(1.0)
-    start: Parameter = Parameter(0.0)
-    s: Variable = Variable()
     x: Variable = Variable(start=0.0, fixed=True)
-    n: Discrete = Discrete(start=0)
 
     def equations(self) -> Equations:
-        yield self.period * self.s == ac.time - self.start
+        yield from super().equations()
         yield der(self.x) == 1.0 - self.x
         yield when(PULSES(self.s) > 0.5, {self.n: pre(self.n) + 1})
 
 
-class Stateless(Component):
+class Stateless(Pulsed):
     """An equation without states."""
 
-    period: Parameter = Parameter(1.0)
-    start: Parameter = Parameter(0.0)
     y: Variable = Variable()
-    n: Discrete = Discrete(start=0)
 
     def equations(self) -> Equations:
-        yield self.y + self.y**3 == 1.25 * PULSES((ac.time - self.start) / self.period)
+        yield from super().equations()
+        yield self.y + self.y**3 == 1.25 * PULSES(self.s)
         yield when(self.y > 0.5, {self.n: pre(self.n) + 1})
 
 
@@ -98,6 +99,20 @@ def test_no_pulse_is_passed_over(model: Any, period: float, start: float, engine
     np.testing.assert_allclose(times, peaks - 0.375 * WIDTH * abs(period), atol=1e-11)
     if model is Counter:
         assert solution["x"][-1] == pytest.approx(2.0 * WIDTH * abs(period), rel=1e-4)
+
+
+def test_a_falling_table_that_starts_on_its_point(engine: Any) -> None:
+    class Falling(Component):
+        y: Variable = Variable()
+        n: Discrete = Discrete(start=0)
+
+        def equations(self) -> Equations:
+            yield self.y == ac.table([-1.0, -0.5, 0.0], [0.0, 1.0, 0.0])(-ac.time)
+            yield when(self.y > 0.5, {self.n: pre(self.n) + 1})
+
+    solution = ac.compile(Falling()).simulate(1.0, saveat=5, engine=engine)
+    np.testing.assert_allclose(solution["y"], [0.0, 0.5, 1.0, 0.5, 0.0], atol=1e-12)
+    assert [event.t for event in solution.events] == pytest.approx([0.25])
 
 
 @pytest.mark.parametrize("solver", [None, "adams"])

@@ -161,16 +161,15 @@ static inline void ac_inputs(ac_work *w, double t) {
     }
 }
 
-/* The first point of a signal beyond t in a direction; the end of the time axis where there is none. */
-static inline double ac_point_beyond(const ac_signal *s, double t, double direction) {
-    int lo = 0, hi = s->n; /* the first point behind t, or at it */
+/* The next of n increasing points: the first above `at`, or the last that is not; n or -1 where there is none. */
+static inline int ac_next_point(const double *x, int n, double at, int upwards) {
+    int lo = 0, hi = n;
     while (lo < hi) {
         const int mid = (lo + hi) / 2;
-        if (direction > 0.0 ? s->t[mid] > t : s->t[mid] >= t) hi = mid;
+        if (x[mid] > at) hi = mid;
         else lo = mid + 1;
     }
-    if (direction > 0.0) return lo < s->n ? s->t[lo] : INFINITY;
-    return lo > 0 ? s->t[lo - 1] : -INFINITY;
+    return upwards ? lo : lo - 1;
 }
 
 #if AC_NT > 0
@@ -179,13 +178,7 @@ static inline double ac_point_beyond(const ac_signal *s, double t, double direct
    parameter. If not `crossed`, up to just behind the point at once. */
 static double ac_table_point(
     const double *x, int n, double at, double slope, double t, double direction, double least, int crossed) {
-    int lo = 0, hi = n; /* the first point above */
-    while (lo < hi) {
-        const int mid = (lo + hi) / 2;
-        if (x[mid] > at) hi = mid;
-        else lo = mid + 1;
-    }
-    const int k = direction * slope > 0.0 ? lo : lo - 1;
+    const int k = ac_next_point(x, n, at, direction * slope > 0.0);
     if (k < 0 || k >= n || slope == 0.0) return direction * INFINITY;
     const double point = t + (x[k] - at) / slope, rounding = 1e-15 * (fabs(point) + fabs(at / slope));
     const double gap = direction * (point - t);
@@ -202,8 +195,9 @@ static double ac_smooth_until(const ac_problem *q, const ac_work *w, double t, d
     double to = q->t1;
     for (int i = 0; i < AC_NU; i++) {
         if (w->m.signals[i].n == 1) continue;
-        const double point = ac_point_beyond(w->m.signals + i, t + direction * least, direction);
-        if (direction * (to - point) > 0.0) to = point;
+        const ac_signal *s = w->m.signals + i;
+        const int k = ac_next_point(s->t, s->n, t + direction * least, direction > 0.0);
+        if (k >= 0 && k < s->n && direction * (to - s->t[k]) > 0.0) to = s->t[k];
     }
 #if AC_NT > 0
     double at[AC_NT], slope[AC_NT];

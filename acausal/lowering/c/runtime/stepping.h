@@ -131,10 +131,10 @@ static void ac_accept(ac_problem *q, ac_control *k, double error) {
    AC_DONE, or why there is none. */
 static int ac_step(ac_problem *q, ac_work *w, ac_control *k, double t) {
     const double direction = q->t1 >= t ? 1.0 : -1.0, least = ac_max(1e-14 * fabs(t), 1e-10 * q->smallest);
+    k->to = ac_smooth_until(q, w, t, least, 1);
     for (;;) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
         if (ac_watched(q)) return AC_STOPPED;
-        k->to = ac_smooth_until(q, w, t, least, 1);
         ac_limit(k, fabs(k->to - t), least);
         ac_refresh(w, k, t);
         const double step = direction * k->size, d = 1.0 / (ac_gamma * step);
