@@ -100,11 +100,20 @@ class Component(Instance):
                 f"component{where} of class `{type(self).__name__}` has `{name}` only with `{condition}=True`: "
                 f"construct it so, `{type(self).__name__}({condition}=True)` {call_site()}".rstrip()
             )
-        known = field_names(type(self))
-        hint = nearest(name, known) or f" It has: {', '.join(known)}."
         raise UnknownFieldError(
-            f"component{where} of class `{type(self).__name__}` has no field `{name}`.{hint} {call_site()}".rstrip()
+            f"component{where} of class `{type(self).__name__}` has no field `{name}`.{self._hint(name)} {call_site()}".rstrip()
         )
+
+    def _hint(self, name: str) -> str:
+        """What may be meant by a name that is no field."""
+        from ..system import System
+
+        known = field_names(type(self))
+        if close := nearest(name, known):
+            return close
+        if hasattr(System, name):
+            return f" Compile the model first: `ac.compile(model)` gives a system, which has `{name}`."
+        return f" It has: {', '.join(known)}."
 
     def __repr__(self) -> str:
         mods = ", ".join(f"{k}={v!r}" for k, v in self.__dict__["_mods"].items())

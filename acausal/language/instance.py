@@ -51,13 +51,12 @@ def field_names(cls: type[Instance]) -> list[str]:
 
 
 def call_site() -> str:
-    """``(file:line)`` of the nearest caller outside this package."""
+    """``(file:line)`` of the nearest caller outside this package; its libraries of components count as outside."""
     frame = sys._getframe(1)
-    package = __name__.rsplit(".", 2)[0]
-    inside = tuple(f"{package}.{part}" for part in ("language", "symbolic", "compiler"))
+    package = __name__.split(".", 1)[0]
     while frame is not None:
         module = str(frame.f_globals.get("__name__", ""))
-        if module != package and not module.startswith(inside):
+        if module.split(".", 1)[0] != package or module.startswith(f"{package}.components"):
             return f"({frame.f_code.co_filename}:{frame.f_lineno})"
         frame = frame.f_back
     return ""

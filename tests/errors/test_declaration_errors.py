@@ -392,6 +392,20 @@ CASES = {
         """,
         ["component `r.p` of class `Pin` has no field `V`", "Did you mean `v`"],
     ),
+    "a model that is not compiled": (
+        """
+        Resistor().simulate(1.0)  # HERE
+        """,
+        ["component of class `Resistor` has no field `simulate`", "Compile the model first: `ac.compile(model)` gives"],
+    ),
+    "an export of a model that is not compiled": (
+        """
+        from acausal.fmi import export
+
+        export(Resistor(), "resistor.fmu")  # HERE
+        """,
+        ["component of class `Resistor` has no field `located`", "Compile the model first: `ac.compile(model)` gives"],
+    ),
     "self forgotten": (
         """
         class M(Component):
