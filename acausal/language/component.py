@@ -100,9 +100,8 @@ class Component(Instance):
                 f"component{where} of class `{type(self).__name__}` has `{name}` only with `{condition}=True`: "
                 f"construct it so, `{type(self).__name__}({condition}=True)` {call_site()}".rstrip()
             )
-        raise UnknownFieldError(
-            f"component{where} of class `{type(self).__name__}` has no field `{name}`.{self._hint(name)} {call_site()}".rstrip()
-        )
+        what = f"component{where} of class `{type(self).__name__}` has no field `{name}`."
+        raise UnknownFieldError(f"{what}{self._hint(name)} {call_site()}".rstrip())
 
     def _hint(self, name: str) -> str:
         """What may be meant by a name that is no field."""
