@@ -57,7 +57,7 @@ def follow(modes: dict[str, Mode], mode: str, x: list[float], t: State) -> Path:
             here.rate, (now, float(t[-1])), state, method="DOP853", t_eval=wanted, events=guards, rtol=1e-11,
             atol=1e-12, max_step=0.01,
         )  # fmt: skip
-        points += list(found.y.T)
+        points += list(np.transpose(found.y))  # an empty list where no wanted time is before the exit
         names += [mode] * len(found.t)
         if found.status != 1:
             return Path(np.array(points).T, names, times)
