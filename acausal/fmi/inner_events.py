@@ -55,7 +55,7 @@ class EventInner(NativeInner):
         )  # fmt: skip
         assert system.hybrid is not None
         self.hybrid, self.problem, self.name = system.hybrid, system.initial, name
-        self.iteration = self._iteration(NativeEquations(self.model, self.library, ()))
+        self.iteration = self._iteration(NativeEquations(self.model, self.native_library, ()))
         self.direct = self._direct()
         self.margins = np.zeros(self.hybrid.roots.count)
         self.slots = np.zeros(self.hybrid.flat.slots.count)
@@ -119,7 +119,7 @@ class EventInner(NativeInner):
         ) -> Run:
             if METHODS[self.method] == "rk4":
                 step = (stop - at) / max(np.ceil((stop - at) / self.dt - 1e-9), 1.0)
-            return self.library.run(
+            return self.native_library.run(
                 at, stop, z, p, save, rtol=self.rtol, atol=self.atol, signals=equations.signals, first_step=step,
                 max_steps=steps, method=self.method, noise=self.iteration.noise, end_open=end_open,
             )  # fmt: skip
@@ -179,7 +179,7 @@ class EventInner(NativeInner):
     def _equations(self, t: float, h: float, matrix: Floats) -> NativeEquations:
         """The equations over a step, for the iteration of events."""
         signals = self._signals(t, h, matrix if h else matrix * (np.arange(matrix.shape[1]) == 0))
-        made = NativeEquations(self.model, self.library, signals)
+        made = NativeEquations(self.model, self.native_library, signals)
         self.iteration.equations = made
         return made
 

@@ -33,7 +33,7 @@ class NativeInner:
         outputs: Sequence[int], derivatives: Sequence[tuple[int, int]], n_inputs: int,
     ) -> None:  # fmt: skip
         self.model = native_model(system)
-        self.library = self.model.library(method)
+        self.native_library = self.model.native_library(method)
         self.lowered, self.places, self.n_inputs = system.lowered, places, n_inputs
         how = tolerances(system, rtol, atol, dt, MAX_STEPS)
         self.rtol, self.atol, self.dt = how.rtol, how.atol, 0.0 if dt is None else dt
@@ -60,7 +60,7 @@ class NativeInner:
         first = self.dt or min(hint, h)
         if METHODS[self.method] == "rk4":
             first = h / np.ceil(h / first - 1e-9)
-        run = self.library.run(
+        run = self.native_library.run(
             t, t + h, z, p, _NONE, rtol=self.rtol, atol=self.atol, signals=self._signals(t, h, matrix),
             first_step=first, max_steps=MAX_STEPS, method=self.method,
         )  # fmt: skip
@@ -80,7 +80,7 @@ class NativeInner:
         if self.lowered.n_w:
             z = self._algebraic(t, z, p)
         signals: list[Signal] = [(np.zeros(1), row[:1]) for row in matrix[: self.n_inputs]]
-        values = self.library.observe(p, signals, np.array([t]), z[None])[0]
+        values = self.native_library.observe(p, signals, np.array([t]), z[None])[0]
         return np.where(self.sign == 0, 0.0, self.sign * values[self.variables])
 
     def _algebraic(self, t: float, z: Floats, p: Floats) -> Floats:
@@ -88,7 +88,7 @@ class NativeInner:
         n_x, n_w = self.lowered.n_x, self.lowered.n_w
         z = z.copy()
         for _ in range(_NEWTON):
-            residual, matrix = self.library.conditions(p, t, z)
+            residual, matrix = self.native_library.conditions(p, t, z)
             step = np.linalg.solve(matrix[:n_w, n_x:], residual[:n_w])
             z[n_x:] -= step
             if np.all(np.abs(step) <= 1e-12 * (np.abs(z[n_x:]) + self.lowered.w_nominal)):

@@ -105,11 +105,11 @@ class Component(Instance):
 
     def _hint(self, name: str) -> str:
         """What may be meant by a name that is no field."""
-        from ..system import System
-
         known = field_names(type(self))
         if close := nearest(name, known):
             return close
+        from ..system import System
+
         if hasattr(System, name):
             return f" Compile the model first: `ac.compile(model)` gives a system, which has `{name}`."
         return f" It has: {', '.join(known)}."

@@ -197,7 +197,7 @@ def _native(
     given = Given(parameters or {}, initial or {}, [(np.asarray(t, float), np.asarray(v, float)) for t, v in signals])
     save = output_times(saveat, t0, t1)
     begin = time.perf_counter()
-    model.library(solver)
+    model.native_library(solver)
     compiled = time.perf_counter()
     how = tolerances(system, rtol, atol, dt, max_steps)
     how.method = solver

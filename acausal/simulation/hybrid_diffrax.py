@@ -274,13 +274,16 @@ class _Stretches:
             w, beyond = compiled(*arguments)
             return np.asarray(w), np.asarray(beyond)
 
+        if not has_kinks(lowered):
+            return static_integrate(self.iteration, look, lambda t, stop, p: np.inf)
+
         @jax.jit
         def kink(t: Any, stop: Any, p: Any) -> Any:
             found = kinks(lowered, (p, self.numbers))
-            return found and found.after(t, smallest_step(t, ROUNDING * (stop - t)))
+            assert found is not None
+            return found.after(t, smallest_step(t, ROUNDING * (stop - t)))
 
-        smooth = not has_kinks(lowered)
-        return static_integrate(self.iteration, look, lambda *now: np.inf if smooth else float(kink(*now)))
+        return static_integrate(self.iteration, look, lambda t, stop, p: float(kink(t, stop, p)))
 
     def differentiated(self) -> Differentiated:
         """Stretches with their derivatives."""

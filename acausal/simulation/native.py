@@ -38,7 +38,7 @@ class NativeEquations:
     """The compiled equations for the iteration of events."""
 
     model: NativeModel
-    library: NativeLibrary
+    native_library: NativeLibrary
     signals: Sequence[Signal]
 
     def feed(self, t: float, p: Floats) -> None:
@@ -51,11 +51,11 @@ class NativeEquations:
         if not low.n_w:
             return z
         z = z.copy()
-        return z if self.library.settle(p, self.signals, t, z) else None
+        return z if self.native_library.settle(p, self.signals, t, z) else None
 
     def values(self, t: float, z: Floats, p: Floats) -> Floats:
         """All reduced variables."""
-        return self.library.observe(p, self.signals, np.array([t]), z[None])[0]
+        return self.native_library.observe(p, self.signals, np.array([t]), z[None])[0]
 
 
 @dataclass(eq=False)
@@ -67,7 +67,7 @@ class NativeModel:
     libraries: dict[tuple[int, bool], NativeLibrary] = field(default_factory=dict[tuple[int, bool], NativeLibrary])
     lock: Any = field(default_factory=threading.Lock)
 
-    def library(self, method: str = METHODS[0], width: int = 0) -> NativeLibrary:
+    def native_library(self, method: str = METHODS[0], width: int = 0) -> NativeLibrary:
         """The library with a method, and with tangents in `width` directions; 0 is without."""
         explicit = method != METHODS[0]
         with self.lock:
@@ -84,7 +84,7 @@ class NativeModel:
         """One that is there, for what all have in common."""
         with self.lock:
             found = next(iter(self.libraries.values()), None)
-        return found or self.library()
+        return found or self.native_library()
 
     # ---- start ------------------------------------------------------------------------------------
     def start(self, t0: float, given: Given, library: NativeLibrary, check: bool = True) -> Started:
@@ -142,7 +142,7 @@ class NativeModel:
         self, t0: float, t1: float, save: Floats, given: Given, how: Tolerances, check: bool = True
     ) -> tuple[Started, Run | HybridRun]:
         """Start and integrate."""
-        library = self.library(how.method)
+        library = self.native_library(how.method)
         started = self.start(t0, given, library, check)
         if started.iteration is not None:
             return started, self._run_events(library, started, t0, t1, save, given, how)
@@ -188,7 +188,7 @@ class NativeModel:
         In a run with events those of the slots follow those of z.
         """
         width = next((w for w in WIDTHS if w >= len(seeds)), WIDTHS[-1])
-        library = self.library(how.method, width)
+        library = self.native_library(how.method, width)
         started = self.start(t0, given, library, check)
         slopes: list[Floats] = []
         p_slopes: list[Floats] = []

@@ -113,8 +113,8 @@ class NativeLibrary:
         self.tables = list(tables)
         self.index = (c_void_p * max(len(self.tables), 1))(*(a.ctypes.data for a in self.tables))
         self.nominal = None if nominal is None else np.ascontiguousarray(nominal, float)
-        self.library = ctypes.CDLL(str(path))
-        lib = self.library
+        self.handle = ctypes.CDLL(str(path))
+        lib = self.handle
         lib.acausal_size.restype = c_long
         sizes = [int(lib.acausal_size(k)) for k in range(9)]
         self.n, self.n_x, self.n_p, self.n_i, n_iz, self.n_all, self.lanes, size, self.n_roots = sizes
@@ -129,7 +129,7 @@ class NativeLibrary:
 
     def _bind_start(self, n_iz: int) -> None:
         """Functions of the parameters and the start, that systems which are written out have."""
-        lib, tangents = self.library, self.tangents
+        lib, tangents = self.handle, self.tangents
         lib.acausal_start_pattern.restype = POINTER(c_int)
         self.start_rows, self.start_columns = (
             np.ctypeslib.as_array(lib.acausal_start_pattern(k), (max(n_iz, 1),))[:n_iz].copy() for k in (0, 1)
@@ -151,16 +151,16 @@ class NativeLibrary:
     # ---- parameters and start ---------------------------------------------------------------------
     def parameters(self, given: NDArray[np.uint8], p: Floats) -> None:
         """Dependent parameters in place, except those that are `given` (a mask)."""
-        self.library.acausal_parameters(_of(given), _of(p))
+        self.handle.acausal_parameters(_of(given), _of(p))
 
     def starts(self, p: Floats, starts: Floats) -> None:
         """Start values that depend on parameters, in place."""
-        self.library.acausal_starts(_of(p), _of(starts))
+        self.handle.acausal_starts(_of(p), _of(starts))
 
     def conditions(self, p: Floats, t: float, z: Floats) -> tuple[Floats, Floats]:
         """What must vanish at the start (n_i,), and its derivatives (n_i, n)."""
         value, entries = np.empty(self.n_i), np.empty(len(self.start_rows))
-        self.library.acausal_conditions(_of(p), t, _of(z), _of(value), _of(entries))
+        self.handle.acausal_conditions(_of(p), t, _of(z), _of(value), _of(entries))
         matrix = np.zeros((self.n_i, self.n))
         matrix[self.start_rows, self.start_columns] = entries
         return value, matrix
@@ -179,7 +179,7 @@ class NativeLibrary:
             z: start values.
         """
         left = float(
-            self.library.acausal_start(_of(p), t, _of(fixed), _of(ease), _of(wanted), len(wanted), _of(z))
+            self.handle.acausal_start(_of(p), t, _of(fixed), _of(ease), _of(wanted), len(wanted), _of(z))
         )
         if left < 0.0:
             raise MemoryError("no memory for the start")
@@ -187,16 +187,16 @@ class NativeLibrary:
 
     def parameters_tangent(self, given: NDArray[np.uint8], p: Floats, dp: Floats) -> None:
         """Tangents (n_p, lanes) of dependent parameters, in place."""
-        self.library.acausal_parameters_tangent(_of(given), _of(p), _of(dp))
+        self.handle.acausal_parameters_tangent(_of(given), _of(p), _of(dp))
 
     def starts_tangent(self, p: Floats, dp: Floats, ds: Floats) -> None:
         """Tangents of start values, in place."""
-        self.library.acausal_starts_tangent(_of(p), _of(dp), _of(ds))
+        self.handle.acausal_starts_tangent(_of(p), _of(dp), _of(ds))
 
     def conditions_tangent(self, p: Floats, dp: Floats, t: float, z: Floats, dz: Floats) -> Floats:
         """Tangents (n_i, lanes) of what must vanish at the start."""
         out = np.empty((self.n_i, self.lanes))
-        self.library.acausal_conditions_tangent(_of(p), _of(dp), t, _of(z), _of(dz), _of(out))
+        self.handle.acausal_conditions_tangent(_of(p), _of(dp), t, _of(z), _of(dz), _of(out))
         return out
 
     # ---- run --------------------------------------------------------------------------------------
@@ -253,7 +253,7 @@ class NativeLibrary:
             problem.n_directions = self.lanes
             problem.dz0, problem.dp, problem.dz_out, problem.dz_end = _of(dz0), _of(dp), _of(dz), _of(dz_end)
         problem.watch = watch.callback
-        code = int(self.library.acausal_run(byref(problem)))
+        code = int(self.handle.acausal_run(byref(problem)))
         if code == STOPPED:
             raise KeyboardInterrupt
         found = () if passed is None else passed.found(problem)
@@ -263,14 +263,14 @@ class NativeLibrary:
         """The algebraic unknowns in z (n,) from its states, in place; False if that fails."""
         held = _signals(signals)
         nominal = None if self.nominal is None else _of(self.nominal)
-        return not self.library.acausal_settle(_of(p), held[0], self.index, nominal, t, _of(z))
+        return not self.handle.acausal_settle(_of(p), held[0], self.index, nominal, t, _of(z))
 
     def observe(self, p: Floats, signals: Sequence[Signal], t: Floats, z: Floats) -> Floats:
         """Every variable of the reduced model at times t (n_t,): (n_t, n_all); NaN where it is not computed."""
         out = np.full((len(t), self.n_all), np.nan)
         t, z = np.ascontiguousarray(t, float), np.ascontiguousarray(z, float)
         held = _signals(signals)
-        if self.library.acausal_observe(_of(p), held[0], self.index, len(t), _of(t), _of(z), _of(out)):
+        if self.handle.acausal_observe(_of(p), held[0], self.index, len(t), _of(t), _of(z), _of(out)):
             raise MemoryError("no memory to evaluate all variables")
         return out
 

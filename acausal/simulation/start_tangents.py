@@ -26,12 +26,12 @@ class StartTangents:
 
     Attributes:
         system: the system.
-        library: with the compiled equations of the start; None to evaluate them with NumPy.
+        native_library: with the compiled equations of the start; None to evaluate them with NumPy.
         lanes: number of directions.
     """
 
     system: Any
-    library: NativeLibrary | None
+    native_library: NativeLibrary | None
     lanes: int
 
     def at(self, t0: float, initial: Mapping[str, Any], started: Started, seeds: Sequence[Seed]) -> Tangents:
@@ -71,7 +71,7 @@ class StartTangents:
                 else:
                     dz[position[index]] = 0.0
                     dz[position[index], k] = sign_of
-        own = self.library is not None and own_conditions(problem, overrides)
+        own = self.native_library is not None and own_conditions(problem, overrides)
         j, rate = self._conditions(t0, started, dz, dp, None if own else given_at, d_wanted)
         n_w = low.n_w
         fixed = given_at.fixed if given_at.conditions else np.ones(low.n_x, bool)
@@ -83,7 +83,7 @@ class StartTangents:
 
     def _starts(self, started: Started, dp: Floats) -> Tangents:
         """Tangents of the start values and the values; `dp` is completed in place."""
-        program, library = self.system.program, self.library
+        program, library = self.system.program, self.native_library
         if library is None:
             return program.tangents(started.p, started.mask.astype(bool), dp), program.starts(started.p, np)
         library.parameters_tangent(started.mask, started.p, dp)
@@ -103,7 +103,7 @@ class StartTangents:
         problem = self.system.initial
         low = problem.lowered
         if given is None:
-            library = self.library
+            library = self.native_library
             assert library is not None
             slope = library.conditions(started.p, t0, started.z0)[1]
             rate = library.conditions_tangent(started.p, dp, t0, started.z0, dz)

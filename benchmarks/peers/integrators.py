@@ -104,7 +104,7 @@ def native(crane: Crane, repeats: int) -> tuple[Tool, Tool]:
 
     system = crane.system
     model = native_model(system)
-    library = model.library()
+    library = model.native_library()
     given = Given({}, {}, [])
     started = model.start(0.0, given, library)
 

@@ -57,7 +57,7 @@ class Methods:
 
         self.crane = crane
         model = native_model(crane.system)
-        self.started = model.start(0.0, Given({}, {}, []), model.library())
+        self.started = model.start(0.0, Given({}, {}, []), model.native_library())
         self.folder = tempfile.TemporaryDirectory()
         place = Path(self.folder.name)
         (place / "model.c").write_text(model.source.text, encoding="utf-8")
@@ -74,7 +74,7 @@ class Methods:
             made = subprocess.run([*command, "-lm"], capture_output=True, text=True, check=False)
             if made.returncode:
                 raise RuntimeError(made.stderr)
-        self.library = ctypes.CDLL(str(place / "methods.so"))
+        self.handle = ctypes.CDLL(str(place / "methods.so"))
 
     def tool(self, name: str, repeats: int) -> Tool:
         """One of `NAMES`."""
@@ -93,10 +93,10 @@ class Methods:
             )  # fmt: skip
             run: Callable[[], int]
             if name == "BDF (CVODE)":
-                run = lambda: self.library.bdf_run(*rest)  # noqa: E731
+                run = lambda: self.handle.bdf_run(*rest)  # noqa: E731
             else:
                 given = ctypes.byref(coefficients) if name.startswith("ESDIRK") else None
-                run = lambda: self.library.method_run(given, *rest)  # noqa: E731
+                run = lambda: self.handle.method_run(given, *rest)  # noqa: E731
             milliseconds, failed = best(run, repeats)
             if failed:
                 raise RuntimeError(f"{name} failed")

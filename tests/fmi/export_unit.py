@@ -64,11 +64,11 @@ class Unit:
         self.identifier = interface.attrib["modelIdentifier"]
         (binary,) = (p for p in (folder / "binaries").rglob(f"{self.identifier}.*"))
         self.binary = binary
-        self.library = ctypes.CDLL(str(binary))
+        self.handle = ctypes.CDLL(str(binary))
 
     def function(self, name: str) -> Any:
         """A function by its name without prefix."""
-        return getattr(self.library, f"fmi{self.version[0]}{name}")
+        return getattr(self.handle, f"fmi{self.version[0]}{name}")
 
     def instance(
         self,

@@ -194,8 +194,8 @@ static double ac_smooth_until(const ac_problem *q, const ac_work *w, double t, d
     const double direction = q->t1 >= t ? 1.0 : -1.0;
     double to = q->t1;
     for (int i = 0; i < AC_NU; i++) {
-        if (w->m.signals[i].n == 1) continue;
         const ac_signal *s = w->m.signals + i;
+        if (s->n == 1) continue;
         const int k = ac_next_point(s->t, s->n, t + direction * least, direction > 0.0);
         if (k >= 0 && k < s->n && direction * (to - s->t[k]) > 0.0) to = s->t[k];
     }
