@@ -122,6 +122,7 @@ def test_processes(tank, drained):
     assert np.allclose(found["V"], drained["V"], rtol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
 def test_dask_cluster(tank, drained):
     distributed = pytest.importorskip("distributed")

@@ -39,9 +39,12 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
     "MovingActuatedDrive": msl_drives_3d.moving_actuated_drive,
     "EngineV6": msl_engines.engine_v6, "EngineV6_analytic": msl_engines.engine_v6_analytic,
 }  # fmt: skip
-LARGE = {"EngineV6", "EngineV6_analytic", "Engine1b_analytic"}
+SLOW = {
+    "EngineV6", "EngineV6_analytic", "Engine1b_analytic", "LineForceWithTwoMasses", "GyroscopicEffects",
+    "PlanarLoops_analytic", "RollingWheelSetPulling",
+}  # fmt: skip
 """The C compiler takes its time over these."""
-NAMES = [pytest.param(name, marks=pytest.mark.slow) if name in LARGE else name for name in MODELS]
+NAMES = [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in MODELS]
 
 
 @pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])

@@ -183,6 +183,7 @@ def four_bar(last: Component) -> Component:
 
 
 @pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.slow_case("diffrax")
 def test_four_bar_linkage(engine: str) -> None:
     t = np.linspace(0.0, 5.0, 101)
     system = ac.compile(four_bar(planar.Revolute()))

@@ -224,7 +224,7 @@ def kept(kind: str, seed: int, engine: Any = "native") -> bool:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_networks_keep_the_books(kind: str) -> None:
-    assert sum(kept(kind, seed) for seed in range(8)) >= 6
+    assert sum(kept(kind, seed) for seed in range(5)) >= 4
 
 
 @pytest.mark.parametrize("seed", [50, 72])
@@ -236,7 +236,7 @@ def test_steps_that_end_just_behind_a_kink(seed: int) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_many_random_networks(kind: str) -> None:
-    assert sum(kept(kind, seed) for seed in range(8, 100)) >= 74
+    assert sum(kept(kind, seed) for seed in range(5, 100)) >= 76
 
 
 @pytest.mark.slow

@@ -105,7 +105,7 @@ def lagrange(links: list[Link]) -> jax.stages.Wrapped:
     return jax.jit(rates)
 
 
-@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(k, marks=pytest.mark.slow) for k in (2, 3)), 4])
+@pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in (1, 2, 3)), 4])
 def test_tree_moves_as_lagrange_says(seed: int) -> None:
     links = tree(seed)
     t = np.linspace(0.0, 1.0, 11)

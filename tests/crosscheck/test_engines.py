@@ -22,7 +22,7 @@ AGREE = 1e-5
 """Largest deviation, relative to the size of the variable over the run."""
 LOOSE = {"slider_crank": 1e-4, "andrews_squeezer": 1e-4}
 """Their accelerations are differences of forces that are far larger."""
-QUICK = {"CoupledMasses", "Friction", "simplified-rigid", "transistor_amplifier", "pendulum_index3"}
+QUICK = {"CoupledMasses", "Friction", "simplified-rigid", "pendulum_index3"}
 """Models of the tests that are not slow: compiling for JAX takes seconds each."""
 
 

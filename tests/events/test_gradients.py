@@ -112,7 +112,7 @@ def values_of(case: Case, engine: Any = "native") -> Callable[[jax.Array], jax.A
     return values
 
 
-@pytest.mark.parametrize("name", cases(slow={"full_wave"}))
+@pytest.mark.parametrize("name", cases(slow={"full_wave", "mixed", "wall"}))
 def test_derivatives_through_events(name: str) -> None:
     case = CASES[name]
     values = values_of(case)

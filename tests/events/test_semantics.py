@@ -28,7 +28,7 @@ from acausal import (
     where,
 )
 
-QUICK = ("test_the_first_of_several", "test_sampled_feedback", "test_where_switches", "test_assertions")
+QUICK = ("test_the_first_of_several", "test_sampled_feedback", "test_where_switches")
 """Tests that run with the diffrax engine, too, where slow tests do not run: compiling for JAX takes seconds each."""
 
 

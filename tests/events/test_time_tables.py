@@ -127,6 +127,7 @@ def test_integrals_have_their_areas(solver: Any, engine: Any) -> None:
     np.testing.assert_allclose(back["x"], [0.0, -WIDTH, -2.0 * WIDTH], rtol=1e-5, atol=1e-12)
 
 
+@pytest.mark.slow_case("diffrax")
 def test_derivatives_know_the_pulses(engine: Any) -> None:
     def last(k: Any, period: Any) -> Any:
         given: Any = {"parameters": {"k": k, "period": period}, "engine": engine, "atol": 1e-12}
@@ -137,6 +138,7 @@ def test_derivatives_know_the_pulses(engine: Any) -> None:
     assert jax.grad(last, 1)(2.0, 1.0) == pytest.approx(4.0 * WIDTH, rel=1e-2)
 
 
+@pytest.mark.slow_case("diffrax")
 def test_long_periodic_tables(engine: Any) -> None:
     """A library table that is one interpolation, with a pulse every second; the pulse is hit where it returns."""
     times = [*np.linspace(0.0, 0.9, 50), 0.95, 0.95 + 1e-5, 0.95 + 2e-5, 1.0]
@@ -197,6 +199,7 @@ def test_tables_over_lines_in_time_are_found(argument: Any, count: int) -> None:
     assert tables_of(argument) == count
 
 
+@pytest.mark.slow_case("diffrax")
 def test_tables_of_many_instances(engine: Any) -> None:
     """One kernel for all instances, each with a shift of its own."""
 

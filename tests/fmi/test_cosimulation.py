@@ -45,6 +45,7 @@ def test_two_participants_with_feedback(decay):
 
 @pytest.mark.parametrize("method", ["jacobi", "gauss-seidel"])
 @pytest.mark.parametrize("order", [pytest.param(0, marks=pytest.mark.slow), 1])
+@pytest.mark.slow_case("gauss-seidel")
 def test_order_of_convergence(masses, method, order):
     """Extrapolation of degree k makes a global error of order k + 1."""
     errors = []
@@ -88,6 +89,7 @@ def test_adaptive_step_meets_its_tolerance(masses):
     assert steps[0] < steps[1] < steps[2]
 
 
+@pytest.mark.slow
 def test_energy_control(masses):
     loose, tight = (
         error(masses.cosimulation(record=["one.s"], tolerance=t, control="energy", rtol=1e-9), masses.whole)[1]

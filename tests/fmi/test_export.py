@@ -12,7 +12,7 @@ import pytest
 import acausal as ac
 import acausal.fmi
 
-from .export_models import Balanced, Chain, Implicit, Oscillator, Pendulum, Swing
+from .export_models import Balanced, Chain, Implicit, Oscillator, Pendulum, Swing, Wall
 from .export_unit import OK, Unit, exported
 
 MODELS = (Oscillator, Implicit, Balanced, Pendulum, Chain, Swing)
@@ -154,11 +154,12 @@ def test_the_same_sources_every_time(unit, tmp_path):
 
 
 @BOTH
-def test_sources_are_clean_c_and_export_only_the_interface(unit, version):
+@pytest.mark.parametrize("model", [Pendulum, Wall])
+def test_sources_are_clean_c_and_export_only_the_interface(unit, version, model):
     import shutil
     import subprocess
 
-    one = unit(Pendulum, version)
+    one = unit(model, version)
     cc = shutil.which("gcc") or shutil.which("clang")
     if cc is None:
         pytest.skip("no C compiler by name")

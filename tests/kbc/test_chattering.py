@@ -60,6 +60,7 @@ def test_the_law_of_the_paper_chatters(engine: Literal["native", "diffrax"]) -> 
 
 
 @pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.slow_case("diffrax")
 def test_the_blended_law_does_not(engine: Literal["native", "diffrax"]) -> None:
     model = ac.redeclare(Bench(), {"pipe.friction": hydraulic.BlendedFriction()})
     solution = ac.compile(model).simulate(t1=20.0, saveat=201, rtol=1e-8, engine=engine)

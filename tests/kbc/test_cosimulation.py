@@ -200,6 +200,7 @@ def test_the_whole_experiment_in_small(tmp_path):
     assert [s for s, _ in found.comparisons] == ["sine", "sine"]
 
 
+@pytest.mark.slow
 def test_command_line(tmp_path, monkeypatch, capsys):
     """`acausal demo cosim --quick` runs the quick extent and says where the figures are."""
     from models.kbc import cosimulation_demo

@@ -40,6 +40,7 @@ def looped() -> dict[type, ac.System]:
     return made
 
 
+@pytest.mark.slow_case(Torn, LinearBlock, Damped)
 @pytest.mark.parametrize("model", MODELS)
 def test_both_engines_agree(systems: dict[type, ac.System], model: Any) -> None:
     system = systems[model]
@@ -128,6 +129,7 @@ CASES = [
 ]
 
 
+@pytest.mark.slow_case(LinearBlock, Branches)
 @pytest.mark.parametrize(("model", "parameters", "initial", "seen"), CASES)
 def test_gradients(
     systems: dict[type, ac.System], model: Any, parameters: list[str], initial: list[str], seen: str

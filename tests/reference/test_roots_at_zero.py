@@ -222,6 +222,7 @@ class Contact(Component):
 
 
 @pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.slow_case("diffrax")
 def test_a_contact_opens(engine: Any) -> None:
     """The force has no value beyond the point at which the contact opens, and the mode is held until there."""
     solution = ac.compile(Contact()).simulate(1.0, rtol=1e-9, saveat=11, engine=engine)

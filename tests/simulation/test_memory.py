@@ -71,7 +71,7 @@ WAYS = [
     (Decay, run), (Decay, run_with_algebraic_unknowns_inside), (Decay, gradient), (Decay, compiled), (Decay, many),
     (Decay, linearization), (Ball, run), (Ball, gradient), (Ball, compiled), (Ball, many),
 ]  # fmt: skip
-QUICK = {(Decay, gradient), (Ball, run)}
+QUICK = {(Ball, run)}
 
 
 def programs() -> int:

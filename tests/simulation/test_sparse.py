@@ -50,6 +50,7 @@ def test_wrong_colouring():
 
 
 @needs_klu
+@pytest.mark.slow
 def test_klu_solves_and_differentiates():
     n, pattern = 9, banded(9)
     values = jax.random.normal(jax.random.key(1), (len(pattern.rows),)).at[pattern.diagonal].add(5.0)

@@ -126,6 +126,7 @@ def crane_exactly(t: Any) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.slow_case("diffrax")
 def test_crane_along_a_path(engine: Any) -> None:
     system = ac.compile(Crane())
     assert system.report().structural_index == 5
@@ -155,6 +156,7 @@ def van_der_pol() -> ac.System:
 
 
 @pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.slow_case("diffrax")
 def test_up_to_the_impasse(engine: Any) -> None:
     """log(x) - x^2/2 falls as t grows."""
     assert van_der_pol().report().structural_index == 1

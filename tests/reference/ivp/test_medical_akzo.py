@@ -47,6 +47,7 @@ class MedicalAkzoNobel(Component):
 
 
 @pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.slow_case("diffrax")
 def test_six_digits(engine: Any) -> None:
     """Some of the components that the source publishes at t = 20; the values are from SciPy's Radau at rtol 1e-9."""
     system = ac.compile(MedicalAkzoNobel())

@@ -84,7 +84,7 @@ typedef void (*ac_curve)(const ac_work *w, const void *data, double s, double *o
 
 static void ac_dense_curve(const ac_work *w, const void *data, double s, double *out) {
     (void)data;
-    ac_interpolate(s, w->z, w->z1, w->v, out);
+    ac_interpolate(s, w->z, w->z1, w->v[0], w->v[1], w->v[2], out);
 }
 
 static void ac_at(ac_work *w, double t, double h, ac_curve curve, const void *data, double s, double *g) {

@@ -49,10 +49,10 @@ static void ac_save_solved(const ac_problem *q, long n, ac_work *w, void *tangen
 #endif
 
 static void ac_save(const ac_problem *q, long n, double s, ac_work *w, void *tangents) {
-    ac_interpolate(s, w->z, w->z1, w->v, q->z_out + n * AC_N);
+    ac_interpolate(s, w->z, w->z1, w->v[0], w->v[1], w->v[2], q->z_out + n * AC_N);
 #ifdef AC_TANGENTS
     ac_tangent_work *d = tangents;
-    if (d) ac_interpolate_vector(s, d->dz, d->dz1, d->dv, (ac_vector *)q->dz_out + n * AC_N);
+    if (d) ac_interpolate_vector(s, d->dz, d->dz1, d->dv[0], d->dv[1], d->dv[2], (ac_vector *)q->dz_out + n * AC_N);
 #else
     (void)tangents;
 #endif

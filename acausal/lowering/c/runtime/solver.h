@@ -251,9 +251,10 @@ static void ac_combine(const ac_work *w, const double *weights, const double *ba
 }
 
 #define AC_DENSE_OUTPUT(NAME, TYPE)                                                                             \
-    static void NAME(double s, const TYPE *y0, const TYPE *y1, TYPE (*v)[AC_N], TYPE *out) {                    \
+    static void NAME(                                                                                           \
+        double s, const TYPE *y0, const TYPE *y1, const TYPE *a, const TYPE *b, const TYPE *c, TYPE *out) {     \
         for (int i = 0; i < AC_N; i++)                                                                          \
-            out[i] = (1.0 - s) * y0[i] + s * (y1[i] + (1.0 - s) * (v[0][i] + s * (v[1][i] + s * v[2][i])));     \
+            out[i] = (1.0 - s) * y0[i] + s * (y1[i] + (1.0 - s) * (a[i] + s * (b[i] + s * c[i])));              \
     }
 AC_DENSE_OUTPUT(ac_interpolate, double)
 
