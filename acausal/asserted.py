@@ -6,7 +6,6 @@ whose conditions switch at events are part of the event iteration.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +17,7 @@ from .lowering.hybrid import Assertion
 from .lowering.numeric import NumericRun
 from .symbolic.expr import Expr
 from .symbolic.traverse import evaluate_in_order
+from .told import tell
 
 if TYPE_CHECKING:
     from .simulation.solution import Solution
@@ -72,7 +72,7 @@ def check_run(solution: Solution, values: Callable[[Ints], Floats]) -> None:
     for text, level in _broken(found, np.asarray(solution.t, float), lambda at: table[np.searchsorted(ids, at)], p):
         if level == "error":
             raise SimulationError(text)
-        warnings.warn(text, stacklevel=4)
+        tell(text, stacklevel=4)
 
 
 def _smooth(system: System) -> list[Assertion]:
@@ -83,7 +83,7 @@ def _refuse(found: list[Assertion], t0: float, values: Floats, p: Floats) -> Non
     for text, level in _broken(found, np.array([t0]), lambda ids: values[ids, None], p):
         if level == "error":
             raise SimulationError(text)
-        warnings.warn(text, stacklevel=4)
+        tell(text, stacklevel=4)
 
 
 def _variables(found: list[Assertion]) -> Ints:

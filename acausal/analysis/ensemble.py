@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+import re
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -42,6 +43,21 @@ class Failure:
     reason: str
 
 
+@dataclass(frozen=True, slots=True)
+class Warned:
+    """A warning of a member.
+
+    Attributes:
+        index: row of the table.
+        parameters: its values.
+        text: what it says.
+    """
+
+    index: int
+    parameters: dict[str, float]
+    text: str
+
+
 def ensemble(
     system: System,
     parameters: Any,
@@ -73,7 +89,8 @@ def ensemble(
         **options: of `System.simulate`: `saveat`, `rtol`, `inputs` and so on.
 
     Returns:
-        the members' trajectories. Members that failed are listed in `failures` and are NaN.
+        the members' trajectories. Members that failed are listed in `failures` and are NaN; what members were warned of
+        is in `warnings`, and is said once for all of them.
 
     Raises:
         UnknownNameError: a column that the model does not have.
@@ -96,10 +113,11 @@ def ensemble(
     results = _run(system, job, members, executor, workers or os.cpu_count() or 1, chunk, meter)
     meter.end()
     good = [r for r in results if r.values is not None]
-    rows = table.to_dict("records")
-    failures = tuple(
-        Failure(r.index, {str(k): float(v) for k, v in rows[r.index].items()}, r.reason) for r in results if r.reason
-    )
+    rows = [{str(k): float(v) for k, v in row.items()} for row in table.to_dict("records")]
+    failures = tuple(Failure(r.index, rows[r.index], r.reason) for r in results if r.reason)
+    warned = tuple(Warned(r.index, rows[r.index], text) for r in results for text in r.warnings)
+    for text in _summaries(warned, len(members)):
+        warnings.warn(text, stacklevel=3)
     if not good:
         raise SimulationError(f"all {len(members)} members failed; the first one: {failures[0].reason}")
     if failures:
@@ -115,7 +133,7 @@ def ensemble(
     values = np.full((len(members), len(t), len(kept)), np.nan)
     for r in good:
         values[r.index] = r.values
-    return Ensemble(system, pd.DataFrame(table), t, kept, values, failures, job)
+    return Ensemble(system, pd.DataFrame(table), t, kept, values, failures, warned, job)
 
 
 class Ensemble:
@@ -130,12 +148,13 @@ class Ensemble:
         names: variables kept.
         values: (n_members, n_t, n_names); NaN for members that failed.
         failures: members that failed.
+        warnings: what members were warned of.
         job: end time and options of the simulations.
     """
 
     def __init__(
         self, system: System, table: pd.DataFrame, t: Floats, names: tuple[str, ...], values: Floats,
-        failures: tuple[Failure, ...], job: Job,
+        failures: tuple[Failure, ...], warnings: tuple[Warned, ...], job: Job,
     ) -> None:  # fmt: skip
         self.system = system
         self.table = table
@@ -143,6 +162,7 @@ class Ensemble:
         self.names = names
         self.values = values
         self.failures = failures
+        self.warnings = warnings
         self.job = job
 
     def __len__(self) -> int:
@@ -226,6 +246,22 @@ class Ensemble:
 
 
 # ---- running --------------------------------------------------------------------------------------------------------
+_NUMBER = re.compile(r"(?<=[ =])[-+]?\d[\d.]*(?:e[-+]?\d+)?(?=[ ,;\n]|$)")
+
+
+def _summaries(warned: Sequence[Warned], total: int) -> Iterator[str]:
+    """For each warning what to say of all members that have it; those that differ in numbers alone are one."""
+    alike: dict[str, dict[int, Warned]] = {}
+    for one in warned:
+        alike.setdefault(_NUMBER.sub("", one.text), {}).setdefault(one.index, one)
+    for members in alike.values():
+        first = next(iter(members.values()))
+        yield (
+            f"{len(members)} of {total} members have this warning (see `warnings`); member {first.index}, "
+            f"{first.parameters}: {first.text}"
+        )
+
+
 def _run(
     system: System, job: Job, members: list[Member], executor: Executor | None, workers: int, chunk: int | None,
     meter: Progress,

@@ -17,6 +17,7 @@ import numpy as np
 
 from ..errors import AcausalError
 from ..language.template import Floats
+from ..told import keeping
 
 if TYPE_CHECKING:
     from ..system import System
@@ -53,30 +54,32 @@ class Member:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Result:
-    """What came of one member: times and (n_t, n_names) values, or the reason why not."""
+    """What came of one member: times and (n_t, n_names) values, or the reason why not; and what it was warned of."""
 
     index: int
     t: Floats | None
     values: Floats | None
     reason: str = ""
+    warnings: tuple[str, ...] = ()
 
 
 def run_members(system: System, job: Job, members: Sequence[Member]) -> list[Result]:
     """Simulate some members one after the other; a failing one is a result too."""
-    results: list[Result] = []
     columns = _state_columns(system, job.names)
-    for member in members:
+    return [_run_member(system, job, columns, member) for member in members]
+
+
+def _run_member(system: System, job: Job, columns: list[tuple[int, float] | None], member: Member) -> Result:
+    with keeping() as told:
         try:
             solution = system.simulate(job.t1, parameters=member.parameters, initial=member.initial, **job.options)
         except AcausalError as error:
-            results.append(Result(member.index, None, None, str(error)))
-            continue
-        kept = [
-            np.asarray(solution[name]) if at is None else at[1] * np.asarray(solution.x)[:, at[0]]
-            for name, at in zip(job.names, columns, strict=True)
-        ]
-        results.append(Result(member.index, np.asarray(solution.t), np.stack(kept, axis=1)))
-    return results
+            return Result(member.index, None, None, str(error), tuple(told))
+    kept = [
+        np.asarray(solution[name]) if at is None else at[1] * np.asarray(solution.x)[:, at[0]]
+        for name, at in zip(job.names, columns, strict=True)
+    ]
+    return Result(member.index, np.asarray(solution.t), np.stack(kept, axis=1), warnings=tuple(told))
 
 
 def _state_columns(system: System, names: Sequence[str]) -> list[tuple[int, float] | None]:

@@ -11,7 +11,7 @@ import numpy as np
 from ..lowering.hybrid import Piece, Point
 from ..simulation.conditions import modes
 from ..simulation.event_iteration import EventIteration, Outcome
-from ..simulation.hybrid_run import run_hybrid, warn
+from ..simulation.hybrid_run import run_hybrid
 from ..simulation.native import NativeEquations
 from ..simulation.native_library import METHODS, Run
 from ..system import System
@@ -61,7 +61,7 @@ class EventInner(NativeInner):
         self.slots = np.zeros(self.hybrid.flat.slots.count)
 
     def _iteration(self, equations: NativeEquations) -> EventIteration:
-        return EventIteration(self.hybrid, self.problem, equations, warn)
+        return EventIteration(self.hybrid, self.problem, equations)
 
     def _direct(self) -> list[tuple[slice, Piece]]:
         """The conditions that inputs can switch at once, by the structure of the equations, and where they stand."""

@@ -18,6 +18,7 @@ from acausal.lowering.hybrid import Hybrid, Piece, Point
 from acausal.lowering.initial import InitialProblem
 from acausal.lowering.levels import levels
 from acausal.passes.impulses import driven_states
+from acausal.told import tell
 
 from .mode_search import NOISE, TURNS, Equations, ModeSearch
 from .native_library import Floats
@@ -100,14 +101,10 @@ class EventIteration(ModeSearch):
         hybrid: what there is.
         problem: initialization of the system, for reinitialized states that depend on each other.
         equations: how an engine evaluates the system.
-        warn: called with the message of an assertion of level ``warning``.
     """
 
-    def __init__(
-        self, hybrid: Hybrid, problem: InitialProblem, equations: Equations, warn: Callable[[str], None]
-    ) -> None:
+    def __init__(self, hybrid: Hybrid, problem: InitialProblem, equations: Equations) -> None:
         super().__init__(hybrid, problem, equations)
-        self.warn = warn
         self.warned: set[tuple[int, int]] = set()
         self.jumped: set[int] = set()
         self.followed: set[int] = set()
@@ -247,7 +244,7 @@ class EventIteration(ModeSearch):
                     )
                 if row not in self.jumped:
                     self.jumped.add(row)
-                    self.warn(f"{text}The results do not show the impulse; all else is right.")
+                    tell(f"{text}The results do not show the impulse; all else is right.")
 
     def _check_solved(self, t: float, values: Floats) -> None:
         """Raise an error where coupled equations have become singular with these modes."""
@@ -349,7 +346,7 @@ class EventIteration(ModeSearch):
         if open_:
             new, some = (", ".join(f"`{low.schedule.reduced.name(int(v))}`" for v in of[:5]) for of in (ids, open_))
             first = low.schedule.reduced.name(open_[0])
-            self.warn(
+            tell(
                 f"At t = {t:.9g} s `reinit` of {new} does not say how {some} jump with it: the constraints that bind "
                 "them leave each of them free to keep its value, and they have been changed as little as possible.\n"
                 f"Try: name more of them, as in `reinit({first}, pre({first}))` for one that keeps its value."
@@ -376,7 +373,7 @@ class EventIteration(ModeSearch):
             self.followed.add(v)
             new, still = (", ".join(f"`{name(int(k))}`" for k in some[:4]) for some in (ids, kept))
             keep = "the states {} keep their values" if len(kept) > 1 else "the state {} keeps its value"
-            self.warn(
+            tell(
                 f"At t = {t:.9g} s `reinit` of {new} changes `{name(v)}`, too, from {before.v[v]:.6g} to {after[v]:.6g}"
                 f", as {keep.format(still)}.\nTry: `reinit({name(v)}, pre({name(v)}))` beside it if `{name(v)}` is to "
                 "keep its value, or make it a state (stateSelect='default' of the spring or damper)."
@@ -408,7 +405,7 @@ class EventIteration(ModeSearch):
                 raise SimulationError(text)
             if (k, int(bad[0])) not in self.warned:
                 self.warned.add((k, int(bad[0])))
-                self.warn(text)
+                tell(text)
 
     # ---- samples ----------------------------------------------------------------------------------
     def schedule(self, t0: float, p: Floats) -> None:

@@ -32,7 +32,7 @@ from .engines import all_signals, output_times
 from .event_iteration import EventIteration
 from .event_tangents import EventTangents
 from .failure import explain
-from .hybrid_run import EVENT, HybridRun, Integrate, run_hybrid, warn
+from .hybrid_run import EVENT, HybridRun, Integrate, run_hybrid
 from .hybrid_static import Stretch, static_integrate
 from .hybrid_tangents import Differentiated, run_with_tangents
 from .inputs import DrivenLowered, drive
@@ -152,7 +152,7 @@ class DiffraxModel:
         p, mask = given_values(system, t0, given)
         p = program.completed(p, mask.astype(bool))
         equations = NumericEquations(system, *self.driven(given))
-        iteration = EventIteration(system.hybrid, system.initial, equations, warn)
+        iteration = EventIteration(system.hybrid, system.initial, equations)
         equations.feed(t0, p)
         starts, overrides = program.starts(p, np), system._overrides(given.initial, np)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -248,8 +247,3 @@ def _closing(iteration: EventIteration, t: float, outcome: Outcome) -> Outcome:
     iteration.moves = [*earlier, *iteration.moves]
     last.ended, last.changed = outcome.ended, outcome.changed
     return last
-
-
-def warn(message: str) -> None:
-    """Tell of an assertion of level ``warning``."""
-    warnings.warn(message, stacklevel=2)

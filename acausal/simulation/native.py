@@ -20,7 +20,7 @@ from acausal.lowering.initial_numeric import solve_numeric
 from acausal.symbolic.traverse import postorder
 
 from .event_iteration import EventIteration
-from .hybrid_run import HybridRun, run_hybrid, warn
+from .hybrid_run import HybridRun, run_hybrid
 from .hybrid_tangents import run_with_tangents
 from .native_build import build
 from .native_library import METHODS, Floats, NativeLibrary, Run, Signal
@@ -123,7 +123,7 @@ class NativeModel:
         if system.hybrid is None:
             z0, left = solve(p)
         else:
-            iteration = EventIteration(system.hybrid, problem, NativeEquations(self, library, given.signals), warn)
+            iteration = EventIteration(system.hybrid, problem, NativeEquations(self, library, given.signals))
             outcome, left = iteration.start(t0, p, starts, solve)
             z0, p = outcome.z, outcome.p
         if check:

@@ -12,6 +12,8 @@ import pytest
 from scipy import stats
 
 import acausal as ac
+from acausal import Equations
+from acausal.analysis.members import Job, Member, pack, run_elsewhere
 from acausal.components import electrical
 from acausal.components.examples import assemble
 from acausal.errors import SimulationError, UnknownNameError
@@ -214,3 +216,35 @@ def test_a_model_without_states_says_what_to_keep():
         system.ensemble({"load.R": [1.0, 2.0]}, 1.0, progress=False)
     kept = system.ensemble({"load.R": [1.0, 2.0]}, 1.0, names=["load.i"], progress=False)
     assert np.allclose(kept["load.i"][:, -1], [2.0, 1.0])
+
+
+class Watched(Explosive):
+    """It warns where it is large: at an event, or at the points of the result."""
+
+    smooth: bool = False
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        small = self.x < 1.5
+        yield ac.assert_(ac.noevent(small) if self.smooth else small, "rather large", level="warning")
+
+
+@pytest.mark.parametrize("smooth", [False, True])
+def test_what_members_are_warned_of_is_said_once(smooth):
+    system = ac.compile(Watched(smooth=smooth))
+    with pytest.warns(UserWarning) as told:
+        found = system.ensemble({"a": [0.1, 0.4, 0.5, 0.6]}, 1.0, saveat=101, workers=2, chunk=1)
+    (one,) = told
+    text = str(one.message)
+    assert one.filename == __file__
+    assert text.startswith("3 of 4 members have this warning (see `warnings`); member 1, {'a': 0.4}: At t = 0.8")
+    assert text.endswith("does not hold: rather large")
+    assert [w.index for w in found.warnings] == [1, 2, 3] and not found.failures
+    assert found.warnings[2].parameters == {"a": 0.6} and "At t = 0.5" in found.warnings[2].text
+
+
+def test_warnings_of_another_process_come_back():
+    system = ac.compile(Watched())
+    job = Job(("x",), 1.0, {"saveat": 3})
+    (result,) = run_elsewhere(pack(system), pack(job), [Member(0, {"a": 0.5}, {})])
+    assert len(result.warnings) == 1 and "rather large" in result.warnings[0]
