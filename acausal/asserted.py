@@ -72,7 +72,7 @@ def check_run(solution: Solution, values: Callable[[Ints], Floats]) -> None:
     for text, level in _broken(found, np.asarray(solution.t, float), lambda at: table[np.searchsorted(ids, at)], p):
         if level == "error":
             raise SimulationError(text)
-        tell(text, stacklevel=4)
+        tell(text)
 
 
 def _smooth(system: System) -> list[Assertion]:
@@ -83,7 +83,7 @@ def _refuse(found: list[Assertion], t0: float, values: Floats, p: Floats) -> Non
     for text, level in _broken(found, np.array([t0]), lambda ids: values[ids, None], p):
         if level == "error":
             raise SimulationError(text)
-        tell(text, stacklevel=4)
+        tell(text)
 
 
 def _variables(found: list[Assertion]) -> Ints:

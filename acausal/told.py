@@ -1,27 +1,35 @@
-"""Warnings of a run: given at once, or kept for what runs many and says each once."""
+"""Warnings of a run: given at the user's line, or kept for what runs many and says each once."""
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
 _kept: ContextVar[list[str] | None] = ContextVar("_kept", default=None)
+_BETWEEN = {"acausal", "jax", "jaxlib", "equinox", "diffrax", "optimistix", "contextlib", "concurrent", "threading"}
+"""Packages whose functions may stand between the user's line and a warning."""
 
 
-def tell(text: str, stacklevel: int = 1) -> None:
-    """Warn of what a run has met, or keep it where `keeping` says so.
-
-    Args:
-        text: what to say.
-        stacklevel: whose line it is: 1 is that of the caller.
-    """
+def tell(text: str) -> None:
+    """Warn of what a run has met, or keep it where `keeping` says so."""
     kept = _kept.get()
     if kept is None:
-        warnings.warn(text, stacklevel=stacklevel + 1)
+        warnings.warn(text, stacklevel=users_level())
     else:
         kept.append(text)
+
+
+def users_level() -> int:
+    """The `stacklevel` of a warning that the caller gives at the user's line, or 1 where no user is on the stack."""
+    frame, level = sys._getframe(1), 1
+    while frame is not None:
+        if str(frame.f_globals.get("__name__", "")).partition(".")[0] not in _BETWEEN:
+            return level
+        frame, level = frame.f_back, level + 1
+    return 1
 
 
 @contextmanager

@@ -15,6 +15,7 @@ import numpy as np
 from ..errors import SimulationError, UnknownNameError, nearest
 from ..language.template import Floats
 from ..simulation.watch import Stop, watch
+from ..told import users_level
 from .members import Job, Member, Progress, Result, pack, run_elsewhere, run_members
 
 if TYPE_CHECKING:
@@ -117,7 +118,7 @@ def ensemble(
     failures = tuple(Failure(r.index, rows[r.index], r.reason) for r in results if r.reason)
     warned = tuple(Warned(r.index, rows[r.index], text) for r in results for text in r.warnings)
     for text in _summaries(warned, len(members)):
-        warnings.warn(text, stacklevel=3)
+        warnings.warn(text, stacklevel=users_level())
     if not good:
         raise SimulationError(f"all {len(members)} members failed; the first one: {failures[0].reason}")
     if failures:
@@ -126,7 +127,7 @@ def ensemble(
             f"{len(failures)} of {len(members)} members failed (see `failures`); member {first.index}, "
             f"{first.parameters}: {first.reason}",
             RuntimeWarning,
-            stacklevel=3,
+            stacklevel=users_level(),
         )
     t = good[0].t
     assert t is not None

@@ -16,6 +16,7 @@ from acausal.errors import SimulationError, UnknownNameError, nearest
 from acausal.lowering.c.text import NotInC
 from acausal.lowering.numeric import is_concrete
 from acausal.poles import check_poles
+from acausal.told import users_level
 
 from .arguments import asks_for_steps, check_arguments, is_saveat, within_run
 from .hybrid_run import HybridRun
@@ -124,7 +125,7 @@ def _telling(system: Any, options: dict[str, Any]) -> dict[str, Any]:
                 "that JAX compiles has to on the diffrax engine. They are right where the equations are continuous "
                 f"over a condition, and leave out the jump where they are not:\n{conditions}\nTake the native engine, "
                 "leave out jax.jit and jax.vmap, or say events=False to accept it.",
-                stacklevel=2,
+                stacklevel=users_level(),
             )
 
     return {k: told_when_differentiated(v, tell) for k, v in options.items()}
@@ -165,7 +166,7 @@ def _find_out(system: Any) -> str | None:
     except NoCompiler as error:
         if "compiler" not in _said:
             _said.add("compiler")
-            warnings.warn(f"{error} Simulations run with diffrax until then.", stacklevel=5)
+            warnings.warn(f"{error} Simulations run with diffrax until then.", stacklevel=users_level())
         return "there is no C compiler"
     except NotInC as error:
         return str(error)

@@ -140,7 +140,15 @@ def simulate(
     )  # fmt: skip
     if traced:
         run, dynamic, _ = _program(lowered, settings.replace(throw=throw))
-        t, x, w, counts, *_ = run(dynamic, *arguments)
+        try:
+            t, x, w, counts, *_ = run(dynamic, *arguments)
+        except TypeError as error:
+            if "forward-mode autodiff" not in str(error):
+                raise
+            raise SimulationError(
+                "Derivatives forwards (`jax.jvp`, `jax.jacfwd`) of a run on the diffrax engine need "
+                "`adjoint=diffrax.ForwardMode()`. Without it there are those backwards (`jax.grad`, `jax.jacrev`)."
+            ) from error
         return Solution(system, t, x, w, p, stats={**_named(counts, method), "solver": _name(method)}, lowered=lowered)
 
     (t, x, w, counts, code, last), compile_seconds, run_seconds = carry_out(

@@ -82,8 +82,9 @@ def test_the_start_is_checked_before_anything_runs(engine: Any) -> None:
 
 def test_of_an_array_the_element_is_named(engine: Any) -> None:
     system = ac.compile(Watched())
-    with pytest.warns(UserWarning, match=r"At t = 0.6 s the assertion of Watched .* too much in all"):
+    with pytest.warns(UserWarning, match=r"At t = 0.6 s the assertion of Watched .* too much in all") as told:
         system.simulate(0.9, saveat=[0.0, 0.3, 0.6, 0.9], engine=engine)
+    assert [w.filename for w in told] == [__file__]
     with (
         pytest.warns(UserWarning, match=r"At t = 2 s the assertion of Watched .* too much in all"),
         pytest.raises(ac.SimulationError, match=r"At t = 4 s the assertion of tanks\[2\] .* the tank is full"),

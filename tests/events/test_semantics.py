@@ -364,8 +364,9 @@ def test_assertions(engine: Any) -> None:
     with pytest.raises(ac.SimulationError, match=r"At t = 0.5\d* s(.|\n)*Asserted \(.*test_semantics.py:\d+.*too far"):
         run(Asserted(), 1.0, engine)
     assert run(Asserted(), 1.0, engine, parameters={"limit": 2.0})["x"][-1] == pytest.approx(1.0)
-    with pytest.warns(UserWarning, match="rather far"):
+    with pytest.warns(UserWarning, match="rather far") as told:
         run(Warned(), 1.0, engine)
+    assert [w.filename for w in told] == [__file__]
 
 
 class Switched(Component):

@@ -229,6 +229,11 @@ def test_forward_mode_through_wrapped_solvers(system):
     assert forward == pytest.approx(float(difference), rel=1e-5, abs=1e-9)
 
 
+def test_forward_mode_without_its_adjoint_is_told():
+    with pytest.raises(SimulationError, match=r"need `adjoint=diffrax.ForwardMode\(\)`"):
+        jax.jacfwd(lambda mu: simulate(van_der_pol(), 0.3, parameters={"mu": mu})["x"][-1])(2.0)
+
+
 def test_many_invariants_are_projected_by_conjugate_gradients():
     from acausal.simulation import projection
 
