@@ -480,6 +480,7 @@ class EventIteration(ModeSearch):
         if slots.initial >= 0:  # assertions on the start itself
             self._check(point)
         self.moves = []
+        self.before = self._conditions(point)
         seen = self._active(p)
         ended = self._ends(point) if seen else None
         z, begun = self._reinitialized(t0, z, p, point)
@@ -488,7 +489,6 @@ class EventIteration(ModeSearch):
             p[piece.slots] = 0.0
         if slots.initial >= 0:
             p[slots.initial] = 0.0
-        self.before = self._conditions(Point(t0, values, p))
         outcome = self._iterate(t0, z, p)
         if due:
             earlier = self.moves

@@ -258,6 +258,27 @@ def test_events_at_the_start(engine: Any) -> None:
     assert_allclose(solution["y"], solution.t, atol=1e-12)
 
 
+class LeftAtTheStart(Clock):
+    """What `d` was before the start is another value than it begins with: this is a change, after the start."""
+
+    d: Discrete = Discrete(start=0)
+    n: Discrete = Discrete(start=0)
+    changes: Discrete = Discrete(start=0)
+
+    def equations(self) -> Equations:
+        yield from super().equations()
+        yield self.d == (self.x < 0.5)
+        yield when(pre(self.d) > 0.5, {self.n: pre(self.n) + 1})
+        yield when(ac.change(self.d), {self.changes: pre(self.changes) + 1})  # true from the beginning
+
+
+def test_what_becomes_true_with_left_limits_behind_the_start_acts(engine: Any) -> None:
+    """Modelica Language Specification 3.6, 8.6: left limits become values, and events are looked for again."""
+    solution = run(LeftAtTheStart(), 1.0, engine)
+    assert set(solution["n"]) == {1.0}
+    assert (solution["changes"][0], solution["changes"][-1]) == (0, 1)
+
+
 def test_a_switch_at_the_very_start(engine: Any) -> None:
     """A ball that lies on the floor and is thrown up, or falls from it at once."""
     from .benchmarks import BouncingBall

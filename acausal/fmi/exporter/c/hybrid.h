@@ -472,6 +472,7 @@ static int fmu_hybrid_start(fmu_instance *f, const ac_given *given) {
     }
     if (FMU_HYBRID == 0) return FMU_OK;
     fmu_event_values(f);
+    fmu_remember(f);
     int status = FMU_OK, ignored = 0;
     const int active = fmu_active(f);
     if (active) {
@@ -481,8 +482,6 @@ static int fmu_hybrid_start(fmu_instance *f, const ac_given *given) {
     fmu_next_lefts(f, active);
     fmu_release(f);
     if (FMU_INITIAL >= 0) fmu_put(f, FMU_INITIAL, 0.0, &ignored);
-    fmu_event_values(f);
-    fmu_remember(f);
     if (status == FMU_OK) status = fmu_iterate(f);
     if (status == FMU_OK && FMU_SAMPLES > 0 && fmu_samples_at_start(f)) status = fmu_event(f, NULL, 1, 0);
     return status;
