@@ -144,7 +144,8 @@ class ChuaResistor(electrical.OnePort):
         yield self.i == where(self.v < -self.Ve, self.Gb * self.v - bend, outside)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_chua_circuit(engine: Any) -> None:
     """Electrical.Analog.Examples.ChuaCircuit for as long as its chaos lets two solvers agree."""
     model = assemble(
@@ -202,7 +203,8 @@ def test_compare_transformers() -> None:
         np.testing.assert_allclose(solution[signal], values, rtol=1e-6, atol=1e-7)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_an_ideal_diode_conducts_what_its_circuit_gives_it(engine: Any) -> None:
     """Its curve parameter is iterated: as a difference of potentials over 1e-5 ohm, 2 uA would be lost in rounding."""
     fired = electrical.Thyristor(vControl=start(5.0, fixed=True))

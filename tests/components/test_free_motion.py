@@ -53,7 +53,8 @@ def turned(angles: Any, sequence: tuple[int, ...] = (1, 2, 3)) -> np.ndarray:
     return third @ second @ first
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 @pytest.mark.parametrize("rtol", [1e-6, 1e-9])
 @pytest.mark.parametrize(
     ("angles", "w", "I_21"),
@@ -137,7 +138,8 @@ USERS = {
 }
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 @pytest.mark.parametrize("rtol", [1e-6, 1e-9])
 @pytest.mark.parametrize("name", USERS)
 def test_official_trajectories_at_other_tolerances(name: str, rtol: float, engine: Any) -> None:

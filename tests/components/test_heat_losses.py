@@ -14,7 +14,8 @@ from acausal.components.examples import assemble, start
 from .msl_shafts import heat_losses
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_shafts_lose_what_their_frictions_give_off(engine: Any) -> None:
     """Rotational.Examples.HeatLosses: 0.33 J of heat, the frictions stick and slip some two hundred times."""
     t = np.linspace(0.0, 1.0, 20001)

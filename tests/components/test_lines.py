@@ -39,7 +39,8 @@ def test_direct_current_attenuates_as_in_the_continuous_line() -> None:
     assert 3.9 < errors[1] / errors[2] < 4.1
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_a_step_diffuses_along_an_rc_line(engine: Any) -> None:
     """Open end of a line of resistance and capacitance: v = 1 - 4/pi sum (-1)^k/(2k+1) exp(-(2k+1)^2 pi^2 t/(4 RC))."""
     time = R * C * LENGTH**2

@@ -44,15 +44,15 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
 }  # fmt: skip
 
 SLOW = {"BlocksTestPadeDelay1"}
-NAMES = [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in MODELS]
 
 
 NATIVE_ONLY = {"BlocksTestStrictLimiters"}
 """With `strict`, an integrator stops without an event: at 1e-8 the diffrax engine's steps do not get past that jump."""
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.slow_case("diffrax", *SLOW)
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize("name", MODELS)
 def test_within_the_tube(name: str, engine: Any) -> None:
     if engine == "diffrax" and name in NATIVE_ONLY:
         pytest.skip("a jump without an event")

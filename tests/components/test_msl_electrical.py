@@ -34,9 +34,8 @@ NATIVE = {"CauerLowPassSC"}
 """It has 1 200 events, which take diffrax minutes, and the native engine seconds."""
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=pytest.mark.slow) if name in NATIVE else name for name in MODELS]
-)
+@pytest.mark.slow_case(*NATIVE)
+@pytest.mark.parametrize("name", MODELS)
 def test_within_the_tube(name: str) -> None:
     assert_within(name, MODELS[name](), "native")
 

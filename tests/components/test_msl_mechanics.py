@@ -28,13 +28,13 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
 }
 
 SLOW = {"PointGravityWithPointMasses2"}
-NAMES = [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in MODELS]
 
 
 # The stop strikes both through dampers whose relative velocities are states, in the official trajectory, too.
 @pytest.mark.filterwarnings("ignore:.*`reinit` of .* changes `(mass3|brake).v`, too:UserWarning")
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.slow_case("diffrax", *SLOW)
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize("name", MODELS)
 def test_within_the_tube(name: str, engine: Any) -> None:
     assert_within(name, MODELS[name](), engine)
 

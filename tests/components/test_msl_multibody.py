@@ -44,10 +44,10 @@ SLOW = {
     "PlanarLoops_analytic", "RollingWheelSetPulling",
 }  # fmt: skip
 """The C compiler takes its time over these."""
-NAMES = [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in MODELS]
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.slow_case("diffrax", *SLOW)
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize("name", MODELS)
 def test_within_the_tube(name: str, engine: Any) -> None:
     assert_within(name, MODELS[name](), engine)

@@ -52,7 +52,8 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 @pytest.mark.parametrize("name", MODELS)
 def test_within_the_tube(name: str, engine: Any) -> None:
     assert_within(name, MODELS[name](), engine)

@@ -21,10 +21,10 @@ MODELS: dict[str, Callable[[], ac.Component]] = {
 
 
 LARGE = {"TablesTimeTo2_5", "TablesTimeTo1", "Tables1DTo1", "TablesTimeTo15", "Tables2DTo60"}
-NAMES = [pytest.param(name, marks=pytest.mark.slow) if name in LARGE else name for name in MODELS]
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.slow_case("diffrax", *LARGE)
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
+@pytest.mark.parametrize("name", MODELS)
 def test_within_the_tube(name: str, engine: Any) -> None:
     assert_within(name, MODELS[name](), engine)

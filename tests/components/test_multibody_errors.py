@@ -202,7 +202,8 @@ def test_a_loop_that_cannot_be_closed() -> None:
         ac.compile(model).simulate(1.0)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_a_loop_that_reaches_its_dead_centre(engine: Any) -> None:
     """A slider, pushed away until crank and rod are in line: there it would stay at rest, which no mechanism does."""
     model = assemble(
@@ -246,7 +247,8 @@ def six_joints(phi: tuple[float, float, float]) -> Component:
 HALF_A_TURN = "orientations that are to be the same are half a turn apart: the start values of the angles are too far"
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 @pytest.mark.parametrize("phi", [(3.1, 0.0, 0.7), (0.0, 0.0, -2.4), (0.1, 3.0, 0.5)])
 def test_a_loop_that_closes_half_a_turn_off(engine: Any, phi: tuple[float, float, float]) -> None:
     """The three residuals of its closure are zero there, too."""

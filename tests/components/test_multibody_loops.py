@@ -201,7 +201,8 @@ class Slider(Component):
         yield connect(self.rod.frame_b, self.rail.frame_b, self.load.frame_a)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_slider_crank_with_a_rod_of_constant_length(engine: str) -> None:
     solution = ac.compile(Slider()).simulate(t1=2.0, rtol=1e-8, engine=engine)  # type: ignore[arg-type]
     phi, w, v = solution["crank.phi"], solution["crank.w"], solution["rail.v"]

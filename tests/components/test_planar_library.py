@@ -45,7 +45,8 @@ def test_slip_curve() -> None:
     assert_allclose(solution["mu"], friction(0.5 * (t - 1.0), 0.1, 0.3, 0.8, 0.4), atol=1e-9)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_wheel_spins_up_and_skids_sideways(engine: Any) -> None:
     """A car on one wheel, driven too hard and thrown sideways, against its equations of motion by SciPy."""
     m, inertia, J, R, N, tau = 10.0, 2.0, 0.5, 0.3, 100.0, 40.0

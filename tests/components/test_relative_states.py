@@ -109,7 +109,8 @@ def struck_by_hand() -> np.ndarray:
     return solve_ivp(rates, (1.5, 2.0), y, rtol=1e-12, atol=1e-13, method="DOP853").y[:, -1]
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 @pytest.mark.parametrize("geared", [False, True])
 def test_what_a_blow_on_one_mass_does_to_the_other_is_said(geared: bool, engine: Any) -> None:
     """With the relative velocity as a state the other mass is struck, too; `reinit` of both says that it is not."""

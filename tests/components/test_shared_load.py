@@ -55,7 +55,8 @@ def shares(solution: ac.Solution, n: int, gear: str) -> tuple[Any, Any]:
     return np.array(told), np.array(stuck)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 @pytest.mark.parametrize(("n", "gear"), [(3, "lossy"), pytest.param(5, "lossy", marks=pytest.mark.slow), (5, "ideal")])
 def test_each_stuck_element_carries_its_share(n: int, gear: str, engine: Any) -> None:
     solution = ac.compile(train(n, gear)).simulate(T[-1], saveat=T, rtol=1e-8, engine=engine, max_steps=400)
@@ -75,7 +76,8 @@ def _ratio(solution: ac.Solution, k: int) -> float:
     return float(np.prod([solution.system.parameters[f"gear{i}.ratio"] for i in range(1, k + 1)]))
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_clutches_side_by_side_between_shafts_that_accelerate(engine: Any) -> None:
     """One holds the other shaft the other way round; each holds the same part of what it can."""
     rng = np.random.default_rng(1)

@@ -49,7 +49,8 @@ def test_a_sensor_that_holds_no_temperature() -> None:
     np.testing.assert_allclose(ac.compile(model).simulate(1.0, saveat=[1.0])["meter.Q_flow"], [100.0])
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_motor(engine: Any) -> None:
     """Thermal.HeatTransfer.Examples.Motor: two masses, linear between the changes of the load."""
     table = ((0.0, 100.0, 500.0), (360.0, 1000.0, 500.0), (600.0, 100.0, 500.0))

@@ -50,10 +50,6 @@ def engine(request: pytest.FixtureRequest) -> Any:
     return request.param
 
 
-SLOW_BY_DIFFRAX = pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
-"""In place of the fixture, for tests that take diffrax long."""
-
-
 def test_a_run_with_assertions_alone_has_no_events(engine: Any) -> None:
     system = ac.compile(Tank())
     assert system.hybrid is None
@@ -92,7 +88,7 @@ def test_of_an_array_the_element_is_named(engine: Any) -> None:
         system.simulate(8.0, saveat=[0.0, 2.0, 4.0, 8.0], engine=engine)
 
 
-@SLOW_BY_DIFFRAX
+@pytest.mark.slow_case("diffrax")
 def test_a_run_with_events_is_checked_as_well(engine: Any) -> None:
     system = ac.compile(Emptied(top=0.45))
     with pytest.raises(ac.SimulationError, match=r"At t = 0.46 s the assertion of Emptied .* the tank is full"):
@@ -100,7 +96,7 @@ def test_a_run_with_events_is_checked_as_well(engine: Any) -> None:
     assert system.simulate(1.0, parameters={"top": 0.6}, engine=engine)["x"][-1] == pytest.approx(-0.5)
 
 
-@SLOW_BY_DIFFRAX
+@pytest.mark.slow_case("diffrax")
 def test_derivatives_and_batches_go_through(engine: Any) -> None:
     system = ac.compile(Tank())
 

@@ -217,7 +217,8 @@ class StruckTwice(Component):
         )
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_a_second_reinit_at_the_same_moment_begins_from_the_first(engine: Any) -> None:
     system = ac.compile(StruckTwice())
     run = system.simulate(1.5, engine=engine, saveat=2)

@@ -90,11 +90,6 @@ CASES = {
 }  # fmt: skip
 
 
-def cases(slow: set[str]) -> list[Any]:
-    """Names of all cases; those that take long are marked."""
-    return [pytest.param(name, marks=pytest.mark.slow) if name in slow else name for name in CASES]
-
-
 def values_of(case: Case, engine: Any = "native") -> Callable[[jax.Array], jax.Array]:
     """Values of what is seen half way and at the end, as a function of all parameters and start values."""
     system = ac.compile(case.model())
@@ -112,7 +107,8 @@ def values_of(case: Case, engine: Any = "native") -> Callable[[jax.Array], jax.A
     return values
 
 
-@pytest.mark.parametrize("name", cases(slow={"full_wave", "mixed", "wall"}))
+@pytest.mark.slow_case("full_wave", "mixed", "wall")
+@pytest.mark.parametrize("name", CASES)
 def test_derivatives_through_events(name: str) -> None:
     case = CASES[name]
     values = values_of(case)
@@ -125,7 +121,8 @@ def test_derivatives_through_events(name: str) -> None:
         assert_allclose(found[:, k], difference, rtol=2e-5, atol=2e-6 * max(1.0, np.abs(difference).max()))
 
 
-@pytest.mark.parametrize("name", cases(slow={"stick_slip", "full_wave", "mixed", "wall", "thermostat", "sampled"}))
+@pytest.mark.slow_case("stick_slip", "full_wave", "mixed", "wall", "thermostat", "sampled")
+@pytest.mark.parametrize("name", CASES)
 def test_both_engines_have_the_same_derivatives(name: str) -> None:
     case = CASES[name]
     x = jnp.array([*case.parameters.values(), *case.initial.values()])
@@ -175,7 +172,8 @@ def test_the_end_of_a_run_that_ends_itself() -> None:
     assert_allclose(jax.grad(last)(2.0), 2 * 2.0 * 0.25, rtol=1e-9)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_what_is_written_where_terminate_ends_a_run(engine: Any) -> None:
     """It follows the time of the end: x is 0.5 there whatever its rate, and the time 0.5 / rate."""
 
@@ -212,7 +210,8 @@ class Jump(Component):
         yield der(self.x) == where(self.x < self.a, self.k, self.r)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_a_rate_that_jumps_in_closed_form(engine: Any) -> None:
     system = ac.compile(Jump())
 

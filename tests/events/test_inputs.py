@@ -102,7 +102,8 @@ def test_integrals_have_their_areas(solver: Any, engine: Any) -> None:
         np.testing.assert_allclose(back["x"], [0.0, -width, -2.0 * width], rtol=1e-5, atol=1e-6)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_derivatives_know_the_pulses(engine: Any) -> None:
     def last(k: Any) -> Any:
         given: Any = {"inputs": {"u": pulses(1e-3)}, "parameters": {"k": k}, "engine": engine}
@@ -111,7 +112,8 @@ def test_derivatives_know_the_pulses(engine: Any) -> None:
     assert jax.grad(last)(2.0) == pytest.approx(2e-3, rel=1e-5)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_inputs_with_points_of_their_own(engine: Any) -> None:
     """Points that coincide but for rounding, of two inputs, are one."""
 

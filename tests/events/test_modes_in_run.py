@@ -107,7 +107,8 @@ def test_most_steps_count_over_all_stretches(calls: list[Any]) -> None:
     assert len(calls) == 1 and calls[0].passed
 
 
-@pytest.mark.parametrize("joint", ["compliant", pytest.param("rigid", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("rigid")
+@pytest.mark.parametrize("joint", ["compliant", "rigid"])
 def test_the_crane(joint: Any, calls: list[Any], monkeypatch: pytest.MonkeyPatch) -> None:
     model = reference_crane(hydraulics="extended", joint=joint)
     own, n, left = both(model, 20.0, calls, monkeypatch, saveat=201)

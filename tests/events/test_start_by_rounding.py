@@ -31,7 +31,8 @@ class Resting(Component):
         yield self.motor.w * 3.0 == 3.0 * (0.1 + 0.2 - self.load.w) - 0.9
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_what_rests_but_for_rounding_is_stuck(engine: Any) -> None:
     solution = ac.compile(Resting()).simulate(0.5, saveat=[0.0, 0.25, 0.5], rtol=1e-9, engine=engine)
     assert abs(solution["motor.w"][0]) < 1e-15
@@ -83,7 +84,8 @@ class SwitchedCapacitor(Component):
         yield connect(self.source.n, self.carrier.n, self.store.n, self.clock.n, self.ground.p)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_a_clock_that_begins_at_its_switch(engine: Any) -> None:
     times = np.arange(11) * 5e-4
     solution = ac.compile(SwitchedCapacitor()).simulate(5e-3, engine=engine, rtol=1e-9, saveat=times)

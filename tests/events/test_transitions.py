@@ -23,7 +23,8 @@ CASES: tuple[Callable[[], Case], ...] = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 @pytest.mark.parametrize("made", CASES, ids=lambda made: made.__name__)
 def test_transitions(made: Callable[[], Case], engine: Any) -> None:
     case = made()

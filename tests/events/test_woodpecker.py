@@ -116,7 +116,8 @@ def automaton() -> dict[str, Mode]:
     }
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_the_woodpecker_goes_down_its_rod(engine: Any) -> None:
     t = np.linspace(0.0, 1.0, 201)
     modes = automaton()

@@ -187,7 +187,7 @@ class Swinging(Component):
         yield connect(self.spring.flange_b, port)
 
 
-@pytest.mark.parametrize("version", [pytest.param("2.0", marks=pytest.mark.slow), "3.0"])
+@ONE_IS_QUICK
 def test_a_unit_behind_a_flange(version):
     body = load(Body, version).component(connectors={"flange": (tr.Flange, {"s": "position", "f": "force"})})
     found = ac.compile(Swinging(body=body)).simulate(3.0, saveat=31, rtol=1e-9)

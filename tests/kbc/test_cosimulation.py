@@ -65,10 +65,8 @@ def test_rmse_is_over_time():
     assert reference.rmse(t, np.array([0.0, 0.0, 3.0])) == pytest.approx(np.sqrt(9.0 * 2 / 2 / 3))
 
 
-@pytest.mark.parametrize("label", [
-    "RK4, two FMUs",
-    *(pytest.param(label, marks=pytest.mark.slow) for label in ("RK4, FMU and MuJoCo", "Rodas5P, two FMUs of FMI 3.0")),
-])  # fmt: skip
+@pytest.mark.slow_case("RK4, FMU and MuJoCo", "Rodas5P, two FMUs of FMI 3.0")
+@pytest.mark.parametrize("label", ["RK4, two FMUs", "RK4, FMU and MuJoCo", "Rodas5P, two FMUs of FMI 3.0"])
 def test_a_row_of_table_2(cut, reference, label, tmp_path):
     row = run_setting(cut, reference, ROWS[label], tmp_path, 3.0)
     assert not row.diverged and row.steps == 300 and row.end == pytest.approx(3.0)

@@ -147,7 +147,8 @@ class Revolving(Component):
         yield ac.sin(lag) == 0.5 * ac.cos(lag)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 @pytest.mark.parametrize("save", [[0.0, 3.0], [3.0], [0.0, 1.4, 3.0]])
 def test_far_output_times_stay_on_the_branch(engine: Any, save: list[float]) -> None:
     solution = ac.compile(Revolving()).simulate(3.0, saveat=save, engine=engine, rtol=1e-8)

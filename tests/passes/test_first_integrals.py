@@ -92,7 +92,8 @@ def test_kept_to_rounding(model: Any, engine: Any) -> None:
     assert_allclose(sums[:, -1], sums[:, 0], rtol=0, atol=4e-16)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_derivatives_are_those_without_it(engine: Any) -> None:
     import jax
 

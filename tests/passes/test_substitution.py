@@ -28,7 +28,8 @@ class Published(Component):
         yield x + y * der(y) + y**2 == cos + (2 + sin) * cos + (2 + sin) ** 2
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_the_published_example(engine: Any) -> None:
     system = ac.compile(Published())
     assert system.report().structural_index == 2

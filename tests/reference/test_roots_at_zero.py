@@ -85,7 +85,8 @@ class Weir(Component):
         yield der(self.h) == 0.3 - self.k * ac.max(self.h - 1.0, 0.0) ** 1.5
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 @pytest.mark.parametrize(
     ("model", "k", "step"), [(Filling(), 0.1, 0.001), (Weir(), 2.0, 0.01)], ids=["from the foot", "over a weir"]
 )
@@ -239,7 +240,8 @@ class Emptying(Component):
         yield der(self.h) == -where(self.h > 0.0, sqrt(self.h), 0.0)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_a_tank_runs_empty(engine: Any) -> None:
     solution = ac.compile(Emptying()).simulate(3.0, rtol=1e-8, engine=engine)
     np.testing.assert_allclose(solution["h"], np.maximum(1.0 - np.asarray(solution.t) / 2.0, 0.0) ** 2, atol=1e-6)

@@ -34,7 +34,8 @@ class Height(Component):
         yield self.x**2 + self.y**2 == 25
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_of_two_roots_without_a_guess_all_engines_take_the_upper_one(engine: Any) -> None:
     solution = ac.compile(Circle()).simulate(1.0, rtol=1e-9, engine=engine)
     np.testing.assert_allclose(solution["x"], (1 + np.asarray(solution.t)) ** 2, rtol=1e-7)

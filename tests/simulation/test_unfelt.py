@@ -64,7 +64,8 @@ def test_a_pulse_between_steps(engine: Any) -> None:
     assert_allclose(y + y**3, np.where(inside, 2.0 * np.exp(-0.01 * times), 0.0), atol=1e-6)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_families(engine: Any) -> None:
     system = ac.compile(Many())
     assert "AC_FAMILIES" in native_model(system).source.text
@@ -75,7 +76,8 @@ def test_families(engine: Any) -> None:
         assert_allclose(y + y**3, right, atol=2e-6)
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_derivatives(engine: Any) -> None:
     """y by k and by the start of x at the output times, by the implicit-function theorem."""
     system = ac.compile(Kinked())

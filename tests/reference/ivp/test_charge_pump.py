@@ -96,7 +96,8 @@ def test_index() -> None:
     assert len(compiled().states) == 2
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_all_ten_pulses(engine: Any) -> None:
     """Before the rise, within both edges, on top, and just before the end."""
     inside = np.array([30e-9, 50.05e-9, 55e-9, 85e-9, 114e-9, 119.95e-9])

@@ -92,7 +92,8 @@ def air() -> Component:
     return types.new_class("Air", (Component,), {}, lambda ns: ns.update(body))()
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_five_days(engine: Any) -> None:
     solution = ac.compile(air()).simulate(T1, t0=T0, rtol=1e-8, atol=1e-13, saveat=2, engine=engine)
     found = np.array([solution[name][-1] for name in SPECIES])

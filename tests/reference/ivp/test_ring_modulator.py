@@ -25,7 +25,8 @@ WANTED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("engine", ["native", pytest.param("diffrax", marks=pytest.mark.slow)])
+@pytest.mark.slow_case("diffrax")
+@pytest.mark.parametrize("engine", ["native", "diffrax"])
 def test_without_capacitances(engine: Any) -> None:
     problem = problems.load("ring_modulator")
     equations = [re.sub(r"^cs\*der\(y\d\) - ", "", text) for text in problem["equations"]]
