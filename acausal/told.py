@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 
+from .callers import PACKAGE, callers, package_of
+
 _kept: ContextVar[list[str] | None] = ContextVar("_kept", default=None)
-_BETWEEN = {"acausal", "jax", "jaxlib", "equinox", "diffrax", "optimistix", "contextlib", "concurrent", "threading"}
+_BETWEEN = {PACKAGE, "jax", "jaxlib", "equinox", "diffrax", "optimistix", "contextlib", "concurrent", "threading"}
 """Packages whose functions may stand between the user's line and a warning."""
 
 
@@ -24,11 +25,9 @@ def tell(text: str) -> None:
 
 def users_level() -> int:
     """The `stacklevel` of a warning that the caller gives at the user's line, or 1 where no user is on the stack."""
-    frame, level = sys._getframe(1), 1
-    while frame is not None:
-        if str(frame.f_globals.get("__name__", "")).partition(".")[0] not in _BETWEEN:
+    for level, (_, module) in enumerate(callers()):
+        if package_of(module) not in _BETWEEN:
             return level
-        frame, level = frame.f_back, level + 1
     return 1
 
 

@@ -114,9 +114,8 @@ def ensemble(
     results = _run(system, job, members, executor, workers or os.cpu_count() or 1, chunk, meter)
     meter.end()
     good = [r for r in results if r.values is not None]
-    rows = [{str(k): float(v) for k, v in row.items()} for row in table.to_dict("records")]
-    failures = tuple(Failure(r.index, rows[r.index], r.reason) for r in results if r.reason)
-    warned = tuple(Warned(r.index, rows[r.index], text) for r in results for text in r.warnings)
+    failures = tuple(Failure(r.index, _values(table, r.index), r.reason) for r in results if r.reason)
+    warned = tuple(Warned(r.index, _values(table, r.index), text) for r in results for text in r.warnings)
     for text in _summaries(warned, len(members)):
         warnings.warn(text, stacklevel=users_level())
     if not good:
@@ -311,6 +310,11 @@ def _collect(futures: Mapping[Future[list[Result]], list[Member]], take: Callabl
 def _chunks(members: list[Member], size: int | None, workers: int) -> list[list[Member]]:
     size = size or max(1, min(LARGEST_CHUNK, len(members) // (CHUNKS_PER_WORKER * workers)))
     return [members[k : k + size] for k in range(0, len(members), size)]
+
+
+def _values(table: pd.DataFrame, row: int) -> dict[str, float]:
+    """What is in one row of a table, for messages."""
+    return {str(name): float(value) for name, value in table.iloc[row].items()}
 
 
 def _table(parameters: Any, initial: Mapping[str, Any] | None) -> pd.DataFrame:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
+from ..callers import PACKAGE, callers, package_of
 from ..symbolic.printing import path_text
 from .sizes import sized
 
@@ -52,13 +52,9 @@ def field_names(cls: type[Instance]) -> list[str]:
 
 def call_site() -> str:
     """``(file:line)`` of the nearest caller outside this package; its libraries of components count as outside."""
-    frame = sys._getframe(1)
-    package = __name__.split(".", 1)[0]
-    while frame is not None:
-        module = str(frame.f_globals.get("__name__", ""))
-        if module.split(".", 1)[0] != package or module.startswith(f"{package}.components"):
+    for frame, module in callers():
+        if package_of(module) != PACKAGE or module.startswith(f"{PACKAGE}.components"):
             return f"({frame.f_code.co_filename}:{frame.f_lineno})"
-        frame = frame.f_back
     return ""
 
 

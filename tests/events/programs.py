@@ -280,15 +280,16 @@ class Interpreter:
         if t > END + APART:
             self._move(END, rates)
             return False
-        now = [what for at, what in coming if at <= t + APART]
-        if abs(t - END) < APART or not self._agree(now, [at for at, _ in coming if at <= t + APART]):
+        now = [(at, what) for at, what in coming if at <= t + APART]
+        # at one time by the program is what happens at times that are given, or at one place of one state
+        if abs(t - END) < APART or any(at != t for at, _ in now) or len({self._place(what) for _, what in now}) > 1:
             raise Undecided
         self._move(t, rates)
-        for kind, relation, value in (what for what in now if what[0] != "sample"):
+        for kind, relation, value in (what for _, what in now if what[0] != "sample"):
             if kind != "time":
                 self.x[relation[1]] = self._edge(relation, value)
             self.held[relation] = value
-        self._at_once({what[1] for what in now if what[0] == "sample"})
+        self._at_once({what[1] for _, what in now if what[0] == "sample"})
         self._note()
         return True
 
@@ -316,15 +317,6 @@ class Interpreter:
     def _edge(self, what: Any, value: Any) -> float:
         """Value of the state at which a relation switches, or a step begins or ends with this new value."""
         return what[2] if what[0] == "x" else what[2] * max(value, self.held[what])
-
-    def _agree(self, now: list[Any], times: list[float]) -> bool:
-        """Whether what happens at one time does so by the program."""
-        if len(now) == 1:
-            return True
-        if max(times) != min(times):
-            return False
-        states = {self._place(what) for what in now}
-        return len(states) == 1 or states <= {"time"}
 
     def _place(self, what: Any) -> Any:
         kind, relation, value = what

@@ -193,7 +193,7 @@ static int ac_adams(ac_problem *q, ac_work *w, ac_explicit_work *e) {
     memcpy(w->z1, w->z, sizeof w->z);
     double h = q->first_step > 0.0 ? q->first_step : 0.1 * ac_first_step(q, w, direction);
     /* behind an event a state may just have left zero: the estimate is then below rounding of the time */
-    h = ac_max(h, ac_max(1e-14 * fabs(q->t0), 1e-10 * q->smallest));
+    h = ac_max(h, ac_smallest_step(q, q->t0));
     memset(e->phi, 0, sizeof e->phi);
     memcpy(e->phi[0], w->f, sizeof w->f);
     e->x[0] = q->t0;
@@ -205,7 +205,7 @@ static int ac_adams(ac_problem *q, ac_work *w, ac_explicit_work *e) {
     while (direction * (q->t1 - q->t_end) > 0.0) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
         if (ac_watched(q)) return AC_STOPPED;
-        const double t = q->t_end, floor_ = ac_max(1e-14 * fabs(t), 1e-10 * q->smallest);
+        const double t = q->t_end, floor_ = ac_smallest_step(q, t);
         const double to = ac_smooth_until(q, w, t, floor_, 0), left = fabs(to - t);
         const int last = h >= left * (1.0 - 1e-12);
         if (h < floor_ && !last) return AC_SMALLEST_STEP;

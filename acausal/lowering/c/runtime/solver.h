@@ -152,6 +152,11 @@ static int ac_factorise(ac_work *w, double d) {
 #endif
 AC_BACK(ac_back, double, ac_solve, ac_dense_solve)
 
+/* The smallest step at time t. */
+static inline double ac_smallest_step(const ac_problem *q, double t) {
+    return ac_max(1e-14 * fabs(t), 1e-10 * q->smallest);
+}
+
 /* Inputs and their rates at time t. */
 static inline void ac_inputs(ac_work *w, double t) {
     for (int i = 0; i < AC_NU; i++) {

@@ -130,7 +130,7 @@ static void ac_accept(ac_problem *q, ac_control *k, double error) {
 /* The next step from (t, w->z) that is accepted, towards q->t1: its size is in k, its end in w->z1, its stages in w->k.
    AC_DONE, or why there is none. */
 static int ac_step(ac_problem *q, ac_work *w, ac_control *k, double t) {
-    const double direction = q->t1 >= t ? 1.0 : -1.0, least = ac_max(1e-14 * fabs(t), 1e-10 * q->smallest);
+    const double direction = q->t1 >= t ? 1.0 : -1.0, least = ac_smallest_step(q, t);
     k->to = ac_smooth_until(q, w, t, least, 1);
     for (;;) {
         if (q->steps >= q->max_steps) return AC_MAX_STEPS;
